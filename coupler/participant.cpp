@@ -1,0 +1,1 @@
+#include "coupler/participant.hpp"

@@ -1,0 +1,123 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/output/source.hpp"
+#include "interface_mesh/surface.hpp"
+
+/// The coupling contract as a solver sees it. The coupler commands, the solver answers; a solver's whole coupled life is
+///
+///     auto participant = Participant::join({.segment = name, .role = Role::structure});
+///     participant->publish_surface(surface, node_masses);            // structure: what it moves
+///     participant->declare({...});                                    // limits, effects, outputs
+///     for (Command c = participant->next(); c.action != Action::finish; c = participant->next()) { ...; participant->answer(); }
+///
+/// The particle side receives its boundary from the coupler (Ω_D, already tied to Ω_S) instead of publishing one.
+namespace talus::coupler {
+
+enum class Role : std::uint32_t { structure = 0, particles = 1 };
+
+enum class Action : std::uint32_t {
+  advance,           ///< compute window `window` from its start; the received fields are those of this iteration
+  save_state,        ///< remember the present state; it is the start of a window
+  restore_state,     ///< go back to the state remembered last
+  report,            ///< fill the output values: probes, ledger, and where `fields` is set the field frames
+  write_checkpoint,  ///< write the state to `path`
+  read_checkpoint,   ///< replace the state by that in `path`; before the first window only
+  finish,            ///< no more commands; leave
+};
+
+/// One command. Time is counted in windows: time = start of run + window x length, never accumulated.
+struct Command {
+  Action action = Action::finish;
+  bool fields = false;         ///< report: field frames are wanted too
+  std::int64_t window = 0;     ///< index of the window, from 0
+  std::int32_t iteration = 0;  ///< of a strong scheme, from 0
+  double time = 0;             ///< s; the start of the window
+  double length = 0;           ///< s; of the window
+  std::string path;            ///< of a checkpoint
+};
+
+/// A limit of the solver's step, as `talus check` lists it.
+struct StepLimit {
+  std::string name;       ///< "contact dashpot on node masses"
+  double seconds = 0;     ///< largest step that keeps it
+  bool stability = true;  ///< false: exceeding it costs accuracy only, a warning
+  std::string reason;     ///< the formula and the entity that sets it
+};
+
+/// An effect of the program, as `talus explain` lists it.
+struct Effect {
+  std::string name;    ///< "friction"
+  bool present = false;
+  std::string reason;  ///< "particles.contacts[0].friction is given" or what the scene would have to name
+};
+
+/// What a participant says of itself before time 0.
+struct Declaration {
+  std::string program;  ///< "fem_solver 0.1.0"
+  double step = 0;      ///< s; its own step inside a window; 0: follows the window
+  std::vector<StepLimit> limits;
+  std::vector<Effect> effects;
+  core::OutputDescription outputs;
+};
+
+/// Interface values of one window, at the nodes of this side's surface, 3 a node.
+struct StructureFields {
+  std::span<const double> force;  ///< N; mean over the window, set on Ω_S
+  std::span<double> displacement;  ///< m; at the window's end
+  std::span<double> velocity;      ///< m/s; at the window's end (explicit leapfrog: half a step before)
+};
+struct ParticleFields {
+  std::span<const double> start_displacement;  ///< m; of Ω_D at the window's start
+  std::span<const double> start_velocity;      ///< m/s
+  std::span<const double> end_displacement;    ///< m; predicted or iterated for the window's end
+  std::span<const double> end_velocity;        ///< m/s
+  std::span<double> force;                     ///< N; that Ω_D receives, mean over the window
+};
+
+struct JoinOptions {
+  std::string segment;
+  Role role = Role::structure;
+  double timeout = 60;  ///< s without any sign of the coupler before next() gives up
+};
+
+class Participant {
+ public:
+  /// @throws TransportError if the segment is missing, of another layout version, or smaller than it claims.
+  static std::unique_ptr<Participant> join(const JoinOptions& options);
+  virtual ~Participant() = default;
+
+  // Before time 0, in this order. Calls out of order throw UsageError.
+  /// Structure only. @pre masses.size() == surface.node_count(); kg
+  virtual void publish_surface(const mesh::Surface& surface, std::span<const double> node_masses) = 0;
+  /// Particles only: Ω_D and the mass that moves behind each of its nodes (kg). Blocks until the structure has published.
+  virtual mesh::Surface receive_surface(std::vector<double>& node_masses) = 0;
+  virtual void declare(const Declaration& declaration) = 0;
+
+  /// The next command; blocks, sleeping. @throws TransportError if the coupler is gone or silent.
+  virtual Command next() = 0;
+  /// Ends the command that next() returned; the sent fields are read by the coupler from here on.
+  virtual void answer() = 0;
+  /// Says why this participant cannot go on. The coupler stops the run and shows the message; call it before leaving with an error.
+  virtual void fail(const std::exception& error) noexcept = 0;
+
+  // Valid from the first next() on, for the participant's life.
+  virtual StructureFields structure_fields() = 0;
+  virtual ParticleFields particle_fields() = 0;
+  /// Where report() puts its values.
+  virtual std::span<double> probes() = 0;
+  virtual std::span<double> ledger() = 0;
+  virtual std::span<double> positions(std::size_t group) = 0;
+  virtual std::span<double> field(std::size_t group, std::size_t field) = 0;
+};
+
+/// Answers Action::report from a source; the same for every solver.
+void report(Participant& participant, const Command& command, const core::OutputSource& source);
+
+}  // namespace talus::coupler
