@@ -1,1 +1,0 @@
-#include "interface_mesh/surface.hpp"

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "interface_mesh/surface.hpp"
+
+namespace talus::mesh {
+
+/// What is wrong with a surface, one sentence a fault with the entity and its coordinates (m); empty for a
+/// sound one. Looks for: incomplete or non-finite positions, part ranges and node indices outside the arrays,
+/// segments shorter than 1e-12 of the surface's extent, triangles whose height is below 1e-10 of their
+/// longest edge, two triangles that run the same way along their common edge (one is turned over), and nodes
+/// that no segment or triangle uses. At most ten of a kind are written out.
+std::vector<std::string> faults(const Surface& surface);
+
+/// @throws core::ConfigError with every fault, headed by `what`, e.g. "structure.parts.net".
+void check(const Surface& surface, const std::string& what);
+
+}  // namespace talus::mesh
