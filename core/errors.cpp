@@ -12,7 +12,7 @@ std::string joined(const std::vector<Complaint>& complaints) {
 }
 
 std::string sentence(const TransportError::Details& d) {
-  return fmt::format("{} {} while the coupler waited for {}{}", d.peer, d.reason, d.waited_for,
+  return fmt::format("{} {} while {} waited for {}{}", d.peer, d.reason, d.waiter, d.waited_for,
                      d.window < 0 ? " before the first window" : fmt::format(" in window {}", d.window));
 }
 

@@ -56,6 +56,7 @@ class TransportError : public std::runtime_error {
     std::string waited_for;    ///< "the answer to 'advance'"
     std::int64_t window = -1;  ///< the window in progress; -1 before the first
     std::string reason;        ///< "was killed by signal 9 (SIGKILL)"
+    std::string waiter = "the coupler";  ///< who waited
   };
   explicit TransportError(Details details);
   const Details& details() const { return details_; }

@@ -1,1 +1,25 @@
 #include "coupler/participant.hpp"
+
+#include "coupler/channel_participant.hpp"
+#include "coupler/transport/segment.hpp"
+
+namespace talus::coupler {
+
+std::unique_ptr<Participant> Participant::join(const JoinOptions& options) {
+  return std::make_unique<ChannelParticipant>(transport::open_shared_segment(options.segment), options);
+}
+
+void report(Participant& participant, const Command& command, const core::OutputSource& source) {
+  source.fill_probes(participant.probes());
+  source.fill_ledger(participant.ledger());
+  if (!command.fields) return;
+  const auto& groups = source.description().groups;
+  for (std::size_t group = 0; group < groups.size(); ++group) {
+    source.fill_positions(group, participant.positions(group));
+    for (std::size_t field = 0; field < groups[group].fields.size(); ++field) {
+      source.fill_field(group, field, participant.field(group, field));
+    }
+  }
+}
+
+}  // namespace talus::coupler

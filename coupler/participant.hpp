@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <memory>
-#include <nlohmann/json_fwd.hpp>
 #include <span>
 #include <string>
 #include <vector>
@@ -10,23 +9,26 @@
 #include "core/output/source.hpp"
 #include "interface_mesh/surface.hpp"
 
-/// The coupling contract as a solver sees it. The coupler commands, the solver answers; a solver's whole coupled life is
+/// The coupling contract as a solver sees it. The coupler commands, the solver answers; a solver's whole
+/// coupled life is
 ///
 ///     auto participant = Participant::join({.segment = name, .role = Role::structure});
 ///     participant->publish_surface(surface, node_masses);            // structure: what it moves
 ///     participant->declare({...});                                    // limits, effects, outputs
-///     for (Command c = participant->next(); c.action != Action::finish; c = participant->next()) { ...; participant->answer(); }
+///     for (Command c = participant->next(); c.action != Action::finish; c = participant->next()) { ...;
+///     participant->answer(); }
 ///
-/// The particle side receives its boundary from the coupler (Ω_D, already tied to Ω_S) instead of publishing one.
+/// The particle side receives its boundary from the coupler (Ω_D, already tied to Ω_S) instead of publishing
+/// one.
 namespace talus::coupler {
 
 enum class Role : std::uint32_t { structure = 0, particles = 1 };
 
 enum class Action : std::uint32_t {
-  advance,           ///< compute window `window` from its start; the received fields are those of this iteration
-  save_state,        ///< remember the present state; it is the start of a window
-  restore_state,     ///< go back to the state remembered last
-  report,            ///< fill the output values: probes, ledger, and where `fields` is set the field frames
+  advance,        ///< compute window `window` from its start; the received fields are those of this iteration
+  save_state,     ///< remember the present state; it is the start of a window
+  restore_state,  ///< go back to the state remembered last
+  report,         ///< fill the output values: probes, ledger, and where `fields` is set the field frames
   write_checkpoint,  ///< write the state to `path`
   read_checkpoint,   ///< replace the state by that in `path`; before the first window only
   finish,            ///< no more commands; leave
@@ -53,7 +55,7 @@ struct StepLimit {
 
 /// An effect of the program, as `talus explain` lists it.
 struct Effect {
-  std::string name;    ///< "friction"
+  std::string name;  ///< "friction"
   bool present = false;
   std::string reason;  ///< "particles.contacts[0].friction is given" or what the scene would have to name
 };
@@ -61,30 +63,36 @@ struct Effect {
 /// What a participant says of itself before time 0.
 struct Declaration {
   std::string program;  ///< "fem_solver 0.1.0"
-  double step = 0;      ///< s; its own step inside a window; 0: follows the window
+  double step = 0;      ///< s; its own step inside a window; 0: one step a window, whatever its length
   std::vector<StepLimit> limits;
   std::vector<Effect> effects;
   core::OutputDescription outputs;
 };
 
-/// Interface values of one window, at the nodes of this side's surface, 3 a node.
+/// Interface values of one window, at the nodes of this side's surface, 3 a node. The structure's
+/// displacement and velocity hold its present state at every answer, so also after `restore_state`,
+/// `read_checkpoint` and a `report` before the first window.
 struct StructureFields {
-  std::span<const double> force;  ///< N; mean over the window, set on Ω_S
+  std::span<const double> force;   ///< N; mean over the window, set on Ω_S
   std::span<double> displacement;  ///< m; at the window's end
   std::span<double> velocity;      ///< m/s; at the window's end (explicit leapfrog: half a step before)
 };
+/// The boundary is given at both ends of the window only to a participant that takes several steps in it; one
+/// that takes a single step evaluates its forces at the window's start, and its two end arrays are empty
+/// (they are not computed).
 struct ParticleFields {
   std::span<const double> start_displacement;  ///< m; of Ω_D at the window's start
   std::span<const double> start_velocity;      ///< m/s
-  std::span<const double> end_displacement;    ///< m; predicted or iterated for the window's end
-  std::span<const double> end_velocity;        ///< m/s
-  std::span<double> force;                     ///< N; that Ω_D receives, mean over the window
+  std::span<const double>
+      end_displacement;                  ///< m; predicted or iterated for the window's end; empty: not needed
+  std::span<const double> end_velocity;  ///< m/s; likewise
+  std::span<double> force;               ///< N; that Ω_D receives, mean over the window
 };
 
 struct JoinOptions {
   std::string segment;
   Role role = Role::structure;
-  double timeout = 60;  ///< s without any sign of the coupler before next() gives up
+  double timeout = 60;  ///< s without any sign of the coupler before a wait gives up
 };
 
 class Participant {
@@ -93,10 +101,12 @@ class Participant {
   static std::unique_ptr<Participant> join(const JoinOptions& options);
   virtual ~Participant() = default;
 
-  // Before time 0, in this order. Calls out of order throw UsageError.
+  // Before time 0, in this order. Calls out of order throw UsageError. A scene without an `interface` goes
+  // the same way, with a surface of no nodes.
   /// Structure only. @pre masses.size() == surface.node_count(); kg
   virtual void publish_surface(const mesh::Surface& surface, std::span<const double> node_masses) = 0;
-  /// Particles only: Ω_D and the mass that moves behind each of its nodes (kg). Blocks until the structure has published.
+  /// Particles only: Ω_D and the mass that moves behind each of its nodes (kg). Blocks until the structure
+  /// has published.
   virtual mesh::Surface receive_surface(std::vector<double>& node_masses) = 0;
   virtual void declare(const Declaration& declaration) = 0;
 
@@ -104,7 +114,8 @@ class Participant {
   virtual Command next() = 0;
   /// Ends the command that next() returned; the sent fields are read by the coupler from here on.
   virtual void answer() = 0;
-  /// Says why this participant cannot go on. The coupler stops the run and shows the message; call it before leaving with an error.
+  /// Says why this participant cannot go on. The coupler stops the run and shows the message; call it before
+  /// leaving with an error.
   virtual void fail(const std::exception& error) noexcept = 0;
 
   // Valid from the first next() on, for the participant's life.

@@ -1,0 +1,213 @@
+#include "coupler/channel_participant.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+
+#include "core/errors.hpp"
+#include "coupler/messages/messages.hpp"
+#include "coupler/transport/mailbox.hpp"
+#include "coupler/transport/signal.hpp"
+
+namespace talus::coupler {
+namespace {
+
+using namespace transport;
+
+Channel& channel_of(Control& control, Role role) {
+  return control.channels[static_cast<std::size_t>(role)];
+}
+
+const char* name_of(Role role) {
+  return role == Role::structure ? "structure" : "particles";
+}
+
+std::string text_of(const Header& header) {
+  const auto bytes = std::min<std::size_t>(load(header.abort_text_bytes), header.abort_text.size());
+  return {header.abort_text.data(), bytes};
+}
+
+Command command_of(const CommandRecord& record) {
+  return {.action = static_cast<Action>(record.action),
+          .fields = record.fields != 0,
+          .window = record.window,
+          .iteration = static_cast<std::int32_t>(record.iteration),
+          .time = record.time,
+          .length = record.length,
+          .path = std::string(record.path.data(), strnlen(record.path.data(), record.path.size()))};
+}
+
+}  // namespace
+
+ChannelParticipant::ChannelParticipant(std::shared_ptr<Segment> segment, const JoinOptions& options)
+    : segment_(std::move(segment)),
+      control_(checked_control(segment_->control(), segment_->real_bytes())),
+      channel_(channel_of(control_, options.role)),
+      options_(options) {
+  const Header& header = control_.header;
+  if (header.coupler_pid != 0) {
+    coupler_ = ProcessHandle({.pid = static_cast<pid_t>(header.coupler_pid), .start = header.coupler_start});
+  }
+  auto expected = static_cast<std::uint32_t>(ChannelState::awaited);
+  if (!std::atomic_ref(channel_.state)
+           .compare_exchange_strong(expected, static_cast<std::uint32_t>(ChannelState::joined))) {
+    give_up(fmt::format("awaits nobody in the role '{}'", name_of(options.role)));
+  }
+  const ProcessIdentity self = this_process();
+  channel_.pid = self.pid;
+  channel_.start_time = self.start;
+  sem_post(&channel_.answer_posted);
+}
+
+ChannelParticipant::~ChannelParticipant() {
+  auto expected = static_cast<std::uint32_t>(ChannelState::joined);
+  std::atomic_ref(channel_.state)
+      .compare_exchange_strong(expected, static_cast<std::uint32_t>(ChannelState::left));
+  sem_post(&channel_.answer_posted);
+}
+
+void ChannelParticipant::expect(Stage stage, const char* call) const {
+  if (stage_ == stage) return;
+  static constexpr std::array<const char*, 6> after{
+      "join()", "the surface was passed", "declare()", "answer()", "next()", "the command 'finish'"};
+  throw core::UsageError(fmt::format("{} may not follow {}", call, after[static_cast<std::size_t>(stage_)]));
+}
+
+void ChannelParticipant::give_up(std::string reason) const {
+  throw core::TransportError({.peer = control_.header.coupler_pid == 0
+                                          ? std::string("the coupler")
+                                          : fmt::format("the coupler (pid {})", control_.header.coupler_pid),
+                              .waited_for = waited_for_,
+                              .window = window_,
+                              .reason = std::move(reason),
+                              .waiter = name_of(options_.role)});
+}
+
+/// Called each slice of a wait: throws where waiting on is no use.
+void ChannelParticipant::look_around(double seconds_waited) {
+  const auto state = static_cast<RunState>(load(control_.header.state));
+  if (state == RunState::aborted) give_up("ended the run: " + text_of(control_.header));
+  if (state == RunState::ended) give_up("left");
+  if (!coupler_.alive()) {
+    segment_->remove_name();  // the coupler can no longer do it
+    give_up("died");
+  }
+  const std::uint64_t heartbeat = load(control_.header.heartbeat);
+  if (heartbeat != last_heartbeat_ || seconds_waited < last_heartbeat_at_) {
+    last_heartbeat_ = heartbeat;
+    last_heartbeat_at_ = seconds_waited;
+  } else if (seconds_waited - last_heartbeat_at_ > options_.timeout) {
+    give_up(fmt::format("gave no sign of life for {:g} s", options_.timeout));
+  }
+}
+
+void ChannelParticipant::publish_surface(const mesh::Surface& surface, std::span<const double> node_masses) {
+  expect(Stage::joined, "publish_surface()");
+  if (options_.role != Role::structure) throw core::UsageError("publish_surface() is the structure's");
+  if (node_masses.size() != static_cast<std::size_t>(surface.node_count())) {
+    throw core::UsageError(
+        fmt::format("publish_surface(): {} masses for {} nodes", node_masses.size(), surface.node_count()));
+  }
+  waited_for_ = "its surface to be taken";
+  send(channel_, Side::participant, MessageKind::surface,
+       encode({surface, {node_masses.begin(), node_masses.end()}}),
+       [this](double seconds) { look_around(seconds); });
+  surface_nodes_ = node_masses.size();
+  stage_ = Stage::surface_known;
+}
+
+mesh::Surface ChannelParticipant::receive_surface(std::vector<double>& node_masses) {
+  expect(Stage::joined, "receive_surface()");
+  if (options_.role != Role::particles) throw core::UsageError("receive_surface() is the particles'");
+  waited_for_ = "its boundary";
+  const LookAround look = [this](double seconds) { look_around(seconds); };
+  send(channel_, Side::participant, MessageKind::surface_request, {}, look);
+  PublishedSurface published = decode_surface(receive(channel_, Side::participant, look).bytes);
+  node_masses = std::move(published.node_masses);
+  surface_nodes_ = node_masses.size();
+  stage_ = Stage::surface_known;
+  return std::move(published.surface);
+}
+
+void ChannelParticipant::declare(const Declaration& declaration) {
+  expect(Stage::surface_known, "declare()");
+  waited_for_ = "its declaration to be taken";
+  send(channel_, Side::participant, MessageKind::declaration, encode(declaration),
+       [this](double seconds) { look_around(seconds); });
+  output_arrays_ = OutputArrays(declaration.outputs);
+  stage_ = Stage::declared;
+}
+
+Command ChannelParticipant::next() {
+  if (stage_ != Stage::declared) expect(Stage::idle, "next()");
+  waited_for_ = "the next command";
+  wait(channel_.command_posted, [this](double seconds) { look_around(seconds); });
+  (void)load(channel_.commands);
+  if (load(control_.header.state) != static_cast<std::uint32_t>(RunState::running)) look_around(0);
+  if (stage_ == Stage::declared) map_arrays();
+  const Command command = command_of(channel_.command);
+  window_ = command.window;
+  stage_ = command.action == Action::finish ? Stage::finished : Stage::answering;
+  return command;
+}
+
+void ChannelParticipant::answer() {
+  expect(Stage::answering, "answer()");
+  stage_ = Stage::idle;
+  post(channel_.answer_posted, channel_.answers);
+}
+
+void ChannelParticipant::fail(const std::exception& error) noexcept {
+  try {
+    Bytes bytes = encode_failure(error);
+    if (bytes.size() > channel_.failure.size())
+      bytes = encode_failure(std::runtime_error(std::string(error.what()).substr(0, 30000)));
+    std::copy(bytes.begin(), bytes.end(), channel_.failure.begin());
+    channel_.failure_bytes = static_cast<std::uint32_t>(bytes.size());
+  } catch (...) {
+    channel_.failure_bytes = 0;  // out of memory: the coupler then says that no reason was given
+  }
+  store(channel_.state, static_cast<std::uint32_t>(ChannelState::failed));
+  sem_post(&channel_.answer_posted);
+}
+
+void ChannelParticipant::map_arrays() {
+  segment_->attach_data(control_.header.data_bytes);
+  const std::span<std::byte> data = segment_->data();
+  const std::uint64_t values = 3 * surface_nodes_;
+  for (std::size_t i = 0; i < array_count; ++i) {
+    const auto name = static_cast<ArrayName>(i);
+    const bool boundary_end = name == ArrayName::end_displacement || name == ArrayName::end_velocity;
+    const ArraySlot& slot = channel_.arrays[i];
+    const std::uint64_t expected = name == ArrayName::outputs ? output_arrays_.size() : values;
+    arrays_[i] = checked_array(data, slot, boundary_end && slot.count == 0 ? 0 : expected);
+  }
+}
+
+std::span<double> ChannelParticipant::outputs() const {
+  if (stage_ < Stage::idle) throw core::UsageError("output values exist from the first next() on");
+  return array(ArrayName::outputs);
+}
+
+StructureFields ChannelParticipant::structure_fields() {
+  if (stage_ < Stage::idle) throw core::UsageError("interface fields exist from the first next() on");
+  return {.force = array(ArrayName::force),
+          .displacement = array(ArrayName::displacement),
+          .velocity = array(ArrayName::velocity)};
+}
+
+ParticleFields ChannelParticipant::particle_fields() {
+  if (stage_ < Stage::idle) throw core::UsageError("interface fields exist from the first next() on");
+  return {.start_displacement = array(ArrayName::displacement),
+          .start_velocity = array(ArrayName::velocity),
+          .end_displacement = array(ArrayName::end_displacement),
+          .end_velocity = array(ArrayName::end_velocity),
+          .force = array(ArrayName::force)};
+}
+
+std::unique_ptr<Participant> join_in_process(std::shared_ptr<Segment> segment, Role role) {
+  return std::make_unique<ChannelParticipant>(std::move(segment), JoinOptions{.segment = "", .role = role});
+}
+
+}  // namespace talus::coupler

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "coupler/messages/output_arrays.hpp"
+#include "coupler/participant.hpp"
+#include "coupler/transport/layout.hpp"
+#include "coupler/transport/process.hpp"
+#include "coupler/transport/segment.hpp"
+
+namespace talus::coupler {
+
+/// A participant over one channel of a segment, be it shared memory or this process's own.
+class ChannelParticipant final : public Participant {
+ public:
+  /// Takes the channel of `options.role`.
+  /// @throws TransportError if the segment's checks fail or the coupler awaits nobody in this role
+  ChannelParticipant(std::shared_ptr<transport::Segment> segment, const JoinOptions& options);
+  ~ChannelParticipant() override;
+
+  void publish_surface(const mesh::Surface& surface, std::span<const double> node_masses) override;
+  mesh::Surface receive_surface(std::vector<double>& node_masses) override;
+  void declare(const Declaration& declaration) override;
+  Command next() override;
+  void answer() override;
+  void fail(const std::exception& error) noexcept override;
+  StructureFields structure_fields() override;
+  ParticleFields particle_fields() override;
+  std::span<double> probes() override { return output_arrays_.probes(outputs()); }
+  std::span<double> ledger() override { return output_arrays_.ledger(outputs()); }
+  std::span<double> positions(std::size_t group) override {
+    return output_arrays_.positions(outputs(), group);
+  }
+  std::span<double> field(std::size_t group, std::size_t field) override {
+    return output_arrays_.field(outputs(), group, field);
+  }
+
+ private:
+  enum class Stage { joined, surface_known, declared, idle, answering, finished };
+
+  void expect(Stage stage, const char* call) const;
+  void look_around(double seconds_waited);
+  [[noreturn]] void give_up(std::string reason) const;
+  void map_arrays();
+  std::span<double> array(transport::ArrayName name) const { return arrays_[static_cast<std::size_t>(name)]; }
+  std::span<double> outputs() const;
+
+  std::shared_ptr<transport::Segment> segment_;
+  transport::Control& control_;
+  transport::Channel& channel_;
+  transport::ProcessHandle coupler_;
+  JoinOptions options_;
+  Stage stage_ = Stage::joined;
+  std::string waited_for_ = "the coupler to begin";
+  std::int64_t window_ = -1;
+  std::size_t surface_nodes_ = 0;
+  OutputArrays output_arrays_;
+  std::array<std::span<double>, transport::array_count> arrays_;
+  std::uint64_t last_heartbeat_ = 0;
+  double last_heartbeat_at_ = 0;  ///< s into the present wait
+};
+
+/// A participant that is a thread of the coupler's own process, for tests.
+std::unique_ptr<Participant> join_in_process(std::shared_ptr<transport::Segment> segment, Role role);
+
+}  // namespace talus::coupler
