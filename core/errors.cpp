@@ -17,9 +17,10 @@ std::string sentence(const TransportError::Details& d) {
 }
 
 std::string sentence(const NumericalError::Details& d) {
-  return fmt::format("{} at step {}, time {:.9g} s: {} = {:.6g}; {}", d.what, d.step, d.time, d.entity, d.value,
-                     d.last_output_time < 0 ? "no output was written before"
-                                            : fmt::format("the last good output is at {:.9g} s", d.last_output_time));
+  return fmt::format(
+      "{} at step {}, time {:.9g} s: {} = {:.6g}; {}", d.what, d.step, d.time, d.entity, d.value,
+      d.last_output_time < 0 ? "no output was written before"
+                             : fmt::format("the last good output is at {:.9g} s", d.last_output_time));
 }
 
 }  // namespace
@@ -34,11 +35,14 @@ std::string Complaint::text() const {
 
 ConfigError::ConfigError(std::vector<Complaint> complaints)
     : std::runtime_error(joined(complaints)), complaints_(std::move(complaints)) {}
-ConfigError::ConfigError(const std::string& message) : ConfigError(std::vector<Complaint>{{.message = message}}) {}
+ConfigError::ConfigError(const std::string& message)
+    : ConfigError(std::vector<Complaint>{{.message = message}}) {}
 
-TransportError::TransportError(Details details) : std::runtime_error(sentence(details)), details_(std::move(details)) {}
+TransportError::TransportError(Details details)
+    : std::runtime_error(sentence(details)), details_(std::move(details)) {}
 
-NumericalError::NumericalError(Details details) : std::runtime_error(sentence(details)), details_(std::move(details)) {}
+NumericalError::NumericalError(Details details)
+    : std::runtime_error(sentence(details)), details_(std::move(details)) {}
 
 ExitCode exit_code(const std::exception& error) noexcept {
   if (dynamic_cast<const ConfigError*>(&error)) return ExitCode::config;

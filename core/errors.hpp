@@ -5,7 +5,8 @@
 #include <string>
 #include <vector>
 
-/// The four ways a run can fail, apart because a different person has to act. Assertions are for our own bugs.
+/// The four ways a run can fail, apart because a different person has to act. Assertions are for our own
+/// bugs.
 namespace talus::core {
 
 /// Exit codes of every Talus program.
@@ -21,11 +22,11 @@ enum class ExitCode : int {
 
 /// One complaint about a scene, tied to the place in the file it speaks of.
 struct Complaint {
-  std::string file;
-  int line = 0;    ///< from 1; 0: the file as a whole
-  int column = 0;  ///< from 1; 0: the line as a whole
-  std::string key_path;  ///< "structure.parts.net.area"; empty for the file as a whole
-  std::string message;   ///< one sentence: what is wrong, the value, what was expected
+  std::string file = {};
+  int line = 0;               ///< from 1; 0: the file as a whole
+  int column = 0;             ///< from 1; 0: the line as a whole
+  std::string key_path = {};  ///< "structure.parts.net.area"; empty for the file as a whole
+  std::string message = {};   ///< one sentence: what is wrong, the value, what was expected
 
   /// "scene.yaml:12:5: structure.parts.net.area: must be greater than 0 m^2, but is -1 m^2"
   std::string text() const;
@@ -69,10 +70,10 @@ class TransportError : public std::runtime_error {
 class NumericalError : public std::runtime_error {
  public:
   struct Details {
-    std::string what;          ///< "displacement is not finite"
-    std::string entity;        ///< "node 17 of net at (1.5, 1.5, 0) m"
+    std::string what;    ///< "displacement is not finite"
+    std::string entity;  ///< "node 17 of net at (1.5, 1.5, 0) m"
     std::int64_t step = -1;
-    double time = 0;           ///< s
+    double time = 0;  ///< s
     double value = 0;
     double last_output_time = -1;  ///< s; the last time whose output is good; < 0: none
   };

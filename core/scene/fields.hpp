@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <limits>
 #include <map>
@@ -13,12 +14,14 @@
 
 #include "core/vector3.hpp"
 
-/// How a section of a scene is declared: once, in a function `void describe(Fields&, Section&)` beside the section's struct. The
-/// same description reads the YAML strictly (reader.hpp), prints the schema page (schema.hpp) and names the allowed keys in errors.
+/// How a section of a scene is declared: once, in a function `void describe(Fields&, Section&)` beside the
+/// section's struct. The same description reads the YAML strictly and prints the schema page (reader.hpp),
+/// and names the allowed keys in errors.
 ///
 ///     struct GravityScene { Vector3 acceleration; };
 ///     void describe(core::Fields& fields, GravityScene& gravity) {
-///       fields.required("acceleration", gravity.acceleration, {.unit = "m/s^2", .help = "acceleration of free fall"});
+///       fields.required("acceleration", gravity.acceleration, {.unit = "m/s^2", .help = "acceleration of
+///       free fall"});
 ///     }
 ///
 /// Presence is the switch: an optional section or value that the scene does not name stays std::nullopt.
@@ -36,8 +39,10 @@ inline constexpr Range positive{.low = 0, .low_included = false};
 inline constexpr Range not_negative{.low = 0};
 inline constexpr Range fraction{.low = 0, .high = 1};
 
-/// What a key says of itself. `unit` is the SI unit a plain number is taken in ("" for a dimensionless one); a string value such
-/// as "4 mm" is converted to it and refused where its dimension differs.
+/// What a key says of itself. `unit` is the SI unit a plain number is taken in ("" for a dimensionless one);
+/// a string value such as "4 mm" is converted to it and refused where its dimension differs. The two columns
+/// of a table of pairs have a unit each: "m, N". The range holds for every number of a list, vector or table,
+/// and for each component.
 struct KeyTraits {
   const char* unit = "";
   Range range = any;
@@ -46,17 +51,19 @@ struct KeyTraits {
 
 class Fields;
 
-/// A value a key can hold without being a section of its own.
-using ScalarSlot = std::variant<double*, std::int64_t*, bool*, std::string*, Vector3*, std::vector<double>*,
-                                std::vector<std::int64_t>*, std::vector<std::string>*, std::vector<Vector3>*,
-                                std::vector<std::pair<double, double>>*>;
+/// A value a key can hold without being a section of its own. A path is made absolute or relative to the
+/// working directory from the folder of the file it is written in, and must exist.
+using ScalarSlot = std::variant<double*, std::int64_t*, bool*, std::string*, std::filesystem::path*, Vector3*,
+                                std::vector<double>*, std::vector<std::int64_t>*, std::vector<std::string>*,
+                                std::vector<Vector3>*, std::vector<std::pair<double, double>>*>;
 
-enum class Presence { required, optional };
+enum class Presence { required, optional, with_default };
 
 /// The names of an enumeration's values, in their order: choices({"x", "y", "z"}).
 using Choices = std::vector<const char*>;
 
-/// A section seen as its keys. Implemented by the reader and by the schema printer. Calls come in the order of the schema page.
+/// A section seen as its keys. Implemented by the reader and by the schema printer. Calls come in the order
+/// of the schema page.
 class Fields {
  public:
   virtual ~Fields() = default;
@@ -65,10 +72,11 @@ class Fields {
   void required(const char* key, T& value, KeyTraits traits) {
     scalar(key, &value, Presence::required, traits, [] {});
   }
-  /// A key that may be missing; `value` keeps its present content as the default, which the schema page shows.
+  /// A key that may be missing; `value` keeps its present content as the default, which the schema page
+  /// shows.
   template <class T>
   void with_default(const char* key, T& value, KeyTraits traits) {
-    scalar(key, &value, Presence::optional, traits, [] {});
+    scalar(key, &value, Presence::with_default, traits, [] {});
   }
   template <class T>
   void optional(const char* key, std::optional<T>& value, KeyTraits traits) {
@@ -77,8 +85,10 @@ class Fields {
   }
 
   template <class Enum>
-  void choice(const char* key, Enum& value, const Choices& names, const char* help, Presence presence = Presence::optional) {
-    choose(key, static_cast<int>(value), names, help, presence, [&value](int i) { value = static_cast<Enum>(i); });
+  void choice(const char* key, Enum& value, const Choices& names, const char* help,
+              Presence presence = Presence::with_default) {
+    choose(key, static_cast<int>(value), names, help, presence,
+           [&value](int i) { value = static_cast<Enum>(i); });
   }
 
   /// A nested section; the help text heads it on the schema page.
@@ -95,15 +105,18 @@ class Fields {
   void list(const char* key, std::vector<Section>& values, const char* help, std::size_t least = 0) {
     nested_list(key, least, help, [&values](Fields& inner) { describe(inner, values.emplace_back()); });
   }
-  /// Named sections, in the order of the file: `parts: {net: {...}, rope: {...}}`.
+  /// Named sections, in the order of the file: `parts: {net: {...}, rope: {...}}`. Names are letters, digits,
+  /// _ and -.
   template <class Section>
-  void map(const char* key, std::vector<std::pair<std::string, Section>>& values, const char* help, std::size_t least = 0) {
+  void map(const char* key, std::vector<std::pair<std::string, Section>>& values, const char* help,
+           std::size_t least = 0) {
     nested_map(key, least, help, [&values](const std::string& name, Fields& inner) {
       describe(inner, values.emplace_back(name, Section{}).second);
     });
   }
-  /// Exactly one of several sections, told apart by its key: `cable: {...}` or `membrane: {...}` at this level. Each alternative
-  /// is a pair of key and help text, in the order of the variant's types; std::monostate first makes the choice optional.
+  /// Exactly one of several sections, told apart by its key: `cable: {...}` or `membrane: {...}` at this
+  /// level. Each alternative is a pair of key and help text, in the order of the variant's types;
+  /// std::monostate first makes the choice optional.
   struct Alternative {
     const char* key;
     const char* help;
@@ -113,18 +126,21 @@ class Fields {
     one_of_impl(value, alternatives, std::index_sequence_for<Sections...>{});
   }
 
-  /// A rule that ties keys together. `holds` is false where the scene breaks it; `key` names the place complained about and
-  /// `message` one sentence with the values. The schema printer ignores rules.
+  /// A rule that ties keys together. `holds` is false where the scene breaks it; `key` names the place
+  /// complained about and `message` one sentence with the values. Where the section already has a complaint
+  /// the rule is not judged, because its values are not those of the scene. The schema printer ignores rules.
   virtual void rule(bool holds, const char* key, const std::string& message) = 0;
   /// The file and line this section stands at, for errors found later (empty in the schema printer).
   virtual std::string place() const = 0;
 
-  // What the templates above come down to. `assign` runs after the slot is filled, and only where the key is present.
+  // What the templates above come down to. `assign` runs after the slot is filled, and only where the key is
+  // present.
   using Assign = std::function<void()>;
   using Describe = std::function<void(Fields&)>;
-  virtual void scalar(const char* key, ScalarSlot slot, Presence presence, KeyTraits traits, Assign assign) = 0;
-  virtual void choose(const char* key, int default_index, const Choices& names, const char* help, Presence presence,
-                      std::function<void(int)> assign) = 0;
+  virtual void scalar(const char* key, ScalarSlot slot, Presence presence, KeyTraits traits,
+                      Assign assign) = 0;
+  virtual void choose(const char* key, int default_index, const Choices& names, const char* help,
+                      Presence presence, std::function<void(int)> assign) = 0;
   virtual void nested(const char* key, Presence presence, const char* help, Describe describe) = 0;
   virtual void nested_list(const char* key, std::size_t least, const char* help, Describe describe_one) = 0;
   virtual void nested_map(const char* key, std::size_t least, const char* help,
@@ -134,14 +150,16 @@ class Fields {
 
  private:
   template <class... Sections, std::size_t... I>
-  void one_of_impl(std::variant<Sections...>& value, const std::vector<Alternative>& alternatives, std::index_sequence<I...>) {
+  void one_of_impl(std::variant<Sections...>& value, const std::vector<Alternative>& alternatives,
+                   std::index_sequence<I...>) {
     using First = std::variant_alternative_t<0, std::variant<Sections...>>;
     constexpr bool may_be_absent = std::is_same_v<First, std::monostate>;
     constexpr std::size_t offset = may_be_absent ? 1 : 0;
-    nested_choice(alternatives, may_be_absent ? Presence::optional : Presence::required,
-                  [&value](std::size_t chosen, Fields& inner) {
-                    (void)((I == chosen + offset ? (describe_alternative<I>(value, inner), true) : false) || ...);
-                  });
+    nested_choice(
+        alternatives, may_be_absent ? Presence::optional : Presence::required,
+        [&value](std::size_t chosen, Fields& inner) {
+          (void)((I == chosen + offset ? (describe_alternative<I>(value, inner), true) : false) || ...);
+        });
   }
   template <std::size_t I, class Variant>
   static void describe_alternative(Variant& value, Fields& inner) {

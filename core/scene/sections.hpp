@@ -6,28 +6,31 @@
 
 #include "core/scene/fields.hpp"
 
-/// The sections every program reads: `title`, `time`, `output`. Those of one side stand in that side's scene/ folder.
+/// The sections every program reads: `title`, `time`, `output`. Those of one side stand in that side's scene/
+/// folder.
 namespace talus::core {
 
 /// `time:` the span of the run. A solver's own section may name another step.
 struct TimeScene {
-  double end = 0;              ///< s
-  std::optional<double> step;  ///< s; the step of both sides, and the coupling window where `coupling.window` is absent
+  double end = 0;  ///< s
+  std::optional<double>
+      step;  ///< s; the step of both sides, and the coupling window where `coupling.window` is absent
 };
 void describe(Fields& fields, TimeScene& time);
 
 /// One named probe: the point of a structure part, or a rock, whose history goes to probes.csv.
 struct ProbeScene {
-  std::optional<Vector3> at;         ///< m; the nearest node of the structure at the reference state
-  std::optional<std::string> part;   ///< look only among this part's nodes; or, without `at`, the part as a whole (rope force, brake travel)
-  std::optional<std::string> rock;   ///< the name of a rock or sphere
+  std::optional<Vector3> at;        ///< m; the nearest node of the structure at the reference state
+  std::optional<std::string> part;  ///< look only among this part's nodes; or, without `at`, the part as a
+                                    ///< whole (rope force, brake travel)
+  std::optional<std::string> rock;  ///< the name of a rock or sphere
   std::vector<std::string> quantities;  ///< empty: all that fit
 };
 void describe(Fields& fields, ProbeScene& probe);
 
 /// `output:` what is written and how often.
 struct OutputScene {
-  double every = 0;                    ///< s between rows of probes.csv and energy.csv; 0: 200 rows over the run
+  double every = 0;  ///< s between rows of probes.csv and energy.csv; 0: 200 rows over the run
   std::optional<double> fields_every;  ///< s between frames of fields.h5; absent: no field output
   std::vector<std::pair<std::string, ProbeScene>> probes;
 };

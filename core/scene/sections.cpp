@@ -1,0 +1,44 @@
+#include "core/scene/sections.hpp"
+
+#include <fmt/format.h>
+
+namespace talus::core {
+
+void describe(Fields& fields, TimeScene& time) {
+  fields.required("end", time.end, {.unit = "s", .range = positive, .help = "simulated time of the run"});
+  fields.optional("step", time.step,
+                  {.unit = "s",
+                   .range = positive,
+                   .help = "step of both sides, and the coupling window where that is not given"});
+  fields.rule(!time.step || *time.step <= time.end, "step",
+              fmt::format("must not be longer than the run, which ends at {} s", time.end));
+}
+
+void describe(Fields& fields, ProbeScene& probe) {
+  fields.optional(
+      "at", probe.at,
+      {.unit = "m", .help = "a point; the nearest node of the structure at the reference state is watched"});
+  fields.optional("part", probe.part,
+                  {.help = "look only among this part's nodes; without `at`, the part as a whole"});
+  fields.optional("rock", probe.rock, {.help = "the name of a rock or sphere"});
+  fields.with_default("quantities", probe.quantities,
+                      {.help = "what to write, e.g. [displacement_z]; all that fit where absent"});
+  fields.rule(probe.at || probe.part || probe.rock, "at",
+              "needs `at`, `part` or `rock`: what is to be watched?");
+  fields.rule(!probe.rock || (!probe.at && !probe.part), "rock",
+              "contradicts `at` and `part`, which watch the structure");
+}
+
+void describe(Fields& fields, OutputScene& output) {
+  fields.with_default("every", output.every,
+                      {.unit = "s",
+                       .range = not_negative,
+                       .help = "time between rows of probes.csv and energy.csv; 0: 200 rows over the run"});
+  fields.optional("fields_every", output.fields_every,
+                  {.unit = "s",
+                   .range = positive,
+                   .help = "time between frames of fields.h5; no fields are written where absent"});
+  fields.map("probes", output.probes, "points, parts and rocks whose history is written, by name");
+}
+
+}  // namespace talus::core
