@@ -45,24 +45,34 @@ class Mapping {
   Index boundary_nodes() const { return boundary_nodes_; }
   Index structure_nodes() const { return structure_nodes_; }
   /// Bytes of the arrays that one transfer in each direction reads.
-  std::size_t bytes_to_boundary() const { return to_boundary_.bytes(); }
-  std::size_t bytes_to_structure() const { return to_structure_.bytes(); }
+  std::size_t bytes_to_boundary() const;
+  std::size_t bytes_to_structure() const;
 
  private:
-  /// Row i gathers sum of weights[k] times value sources[k], k from begin[i] to begin[i + 1].
+  /// W: every row padded to the same number of masters by weights of 0, so that the loop over a row has a
+  /// fixed length (a third faster than rows of any length).
+  struct PaddedRows {
+    std::size_t width = 1;  ///< masters a row, 1 to 3
+    std::vector<Index> sources;
+    std::vector<double> weights;
+
+    explicit PaddedRows(std::span<const SurfacePoint> ties);
+    template <std::size_t width>
+    void gather(std::span<const double> from, std::span<double> to) const noexcept;
+  };
+  /// W^T: row i gathers weights[k] times value sources[k], k from begin[i] to begin[i + 1].
   struct Rows {
     std::vector<Index> begin, sources;
     std::vector<double> weights;
-    bool identity = false;  ///< row i is node i with weight 1
 
+    Rows(std::span<const SurfacePoint> ties, Index row_count);
     void gather(std::span<const double> from, std::span<double> to) const noexcept;
-    Rows transposed(Index columns) const;
-    void look_for_identity(Index columns);
-    std::size_t bytes() const;
   };
 
   Index boundary_nodes_ = 0, structure_nodes_ = 0;
-  Rows to_boundary_, to_structure_;
+  bool identity_ = false;  ///< boundary node i is structure node i
+  PaddedRows to_boundary_;
+  Rows to_structure_;
 };
 
 /// A mapping and how well its two surfaces lie on each other.
