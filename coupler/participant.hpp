@@ -42,7 +42,7 @@ struct Command {
   std::int32_t iteration = 0;  ///< of a strong scheme, from 0
   double time = 0;             ///< s; the start of the window
   double length = 0;           ///< s; of the window
-  std::string path;            ///< of a checkpoint
+  std::string path{};          ///< of a checkpoint
 };
 
 /// A limit of the solver's step, as `talus check` lists it.

@@ -1,0 +1,126 @@
+#include "coupler/session/introduction.hpp"
+
+#include <algorithm>
+#include <tuple>
+
+namespace talus::coupler {
+namespace {
+
+using transport::ArrayName;
+using transport::MessageKind;
+
+/// Complaints about one scene from several programs. Sections that all of them read are complained about
+/// once.
+class Complaints {
+ public:
+  explicit Complaints(std::vector<core::Complaint> first) : all_(std::move(first)) {}
+
+  template <class Step>
+  void collect(Step&& step) {
+    try {
+      step();
+    } catch (const core::ConfigError& error) {
+      all_.insert(all_.end(), error.complaints().begin(), error.complaints().end());
+    }
+  }
+  void throw_if_any() {
+    if (all_.empty()) return;
+    const auto place = [](const core::Complaint& c) {
+      return std::tie(c.file, c.line, c.column, c.key_path, c.message);
+    };
+    std::sort(all_.begin(), all_.end(), [&](const auto& a, const auto& b) { return place(a) < place(b); });
+    all_.erase(std::unique(all_.begin(), all_.end()), all_.end());
+    throw core::ConfigError(std::move(all_));
+  }
+
+ private:
+  std::vector<core::Complaint> all_;
+};
+
+ByteView expect(const transport::Message& message, MessageKind kind, const Peer& peer, const char* what) {
+  if (message.kind == kind) return message.bytes;
+  throw core::TransportError({.peer = peer.label(), .waited_for = what, .reason = "said something else"});
+}
+
+PublishedSurface hear_surface(Session& session, Peer& structure) {
+  const auto message = session.receive(structure, "its surface");
+  return decode_surface(expect(message, MessageKind::surface, structure, "its surface"));
+}
+
+void hear_request(Session& session, Peer& particles) {
+  expect(session.receive(particles, "it to ask for its boundary"), MessageKind::surface_request, particles,
+         "it to ask for its boundary");
+}
+
+Interface make_interface(const InterfacePlan& plan, PublishedSurface published) {
+  mesh::Surface boundary = plan.make_boundary(published.surface);
+  mesh::TiedSurfaces tie = plan.tie(boundary, published.surface);
+  std::vector<double> boundary_masses = tie.mapping.boundary_masses(published.node_masses);
+  return {.structure = std::move(published.surface),
+          .boundary = std::move(boundary),
+          .structure_masses = std::move(published.node_masses),
+          .boundary_masses = std::move(boundary_masses),
+          .tie = std::move(tie)};
+}
+
+}  // namespace
+
+InterfacePlan identical_surfaces() {
+  return {.make_boundary = [](const mesh::Surface& structure) { return structure; },
+          .tie =
+              [](const mesh::Surface& boundary, const mesh::Surface& structure) {
+                return mesh::tie_to_nearest_feature(boundary, structure);
+              }};
+}
+
+std::optional<Interface> introduce(Session& session, const std::optional<InterfacePlan>& plan,
+                                   std::vector<core::Complaint> complaints) {
+  Complaints all(std::move(complaints));
+  Peer* structure = session.find(Role::structure);
+  Peer* particles = session.find(Role::particles);
+  PublishedSurface published;
+  if (structure != nullptr) all.collect([&] { published = hear_surface(session, *structure); });
+  if (particles != nullptr) all.collect([&] { hear_request(session, *particles); });
+  all.throw_if_any();
+
+  std::optional<Interface> interface;
+  if (plan && structure != nullptr && particles != nullptr)
+    interface = make_interface(*plan, std::move(published));
+  if (particles != nullptr) {
+    const PublishedSurface boundary =
+        interface ? PublishedSurface{interface->boundary, interface->boundary_masses} : PublishedSurface{};
+    session.send(*particles, MessageKind::surface, encode(boundary));
+  }
+  for (Peer* peer : session.peers()) {
+    all.collect([&] {
+      const auto message = session.receive(*peer, "its declaration");
+      peer->set_declaration(
+          decode_declaration(expect(message, MessageKind::declaration, *peer, "its declaration")));
+    });
+  }
+  all.throw_if_any();
+  return interface;
+}
+
+bool takes_several_steps(const Declaration& declaration, double window_length) {
+  constexpr double round_off = 1e-9;
+  return declaration.step > 0 && declaration.step < window_length * (1 - round_off);
+}
+
+void lay_out_arrays(Session& session, const std::optional<Interface>& interface, double window_length) {
+  for (Peer* peer : session.peers()) {
+    Session::request_array(*peer, ArrayName::outputs, peer->output_arrays().size());
+    if (!interface) continue;
+    const bool is_structure = peer->role() == Role::structure;
+    const std::size_t values = (is_structure ? interface->structure : interface->boundary).positions.size();
+    for (const auto name : {ArrayName::force, ArrayName::displacement, ArrayName::velocity}) {
+      Session::request_array(*peer, name, values);
+    }
+    if (is_structure || !takes_several_steps(peer->declaration(), window_length)) continue;
+    Session::request_array(*peer, ArrayName::end_displacement, values);
+    Session::request_array(*peer, ArrayName::end_velocity, values);
+  }
+  session.create_arrays();
+}
+
+}  // namespace talus::coupler

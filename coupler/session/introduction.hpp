@@ -1,0 +1,46 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "core/errors.hpp"
+#include "coupler/session/session.hpp"
+#include "interface_mesh/mapping.hpp"
+
+/// Before the first window: participants say what they are, the interface is made, arrays are laid out.
+namespace talus::coupler {
+
+/// Makes Ω_D from Ω_S and ties the two.
+struct InterfacePlan {
+  std::function<mesh::Surface(const mesh::Surface& structure)> make_boundary;
+  std::function<mesh::TiedSurfaces(const mesh::Surface& boundary, const mesh::Surface& structure)> tie;
+};
+/// Ω_D is Ω_S itself.
+InterfacePlan identical_surfaces();
+
+/// The interface as it was agreed on.
+struct Interface {
+  mesh::Surface structure;               ///< Ω_S
+  mesh::Surface boundary;                ///< Ω_D
+  std::vector<double> structure_masses;  ///< kg
+  std::vector<double> boundary_masses;   ///< kg; what moves behind each node of Ω_D
+  mesh::TiedSurfaces tie;
+};
+
+/// Hears every participant's surface and declaration and answers with the boundary. A plan that is absent
+/// means a run without an interface: a side then has a surface of no nodes.
+/// @param complaints of the caller about the same scene; thrown together with those of the participants,
+/// sorted by place
+/// @throws core::ConfigError with the complaints of all programs, TransportError, Interrupted
+std::optional<Interface> introduce(Session& session, const std::optional<InterfacePlan>& plan,
+                                   std::vector<core::Complaint> complaints = {});
+
+/// Whether a participant takes several steps in a window of this length (s), so that it needs the boundary at
+/// both its ends.
+bool takes_several_steps(const Declaration& declaration, double window_length);
+
+/// Sizes every array of every participant and makes the data block.
+void lay_out_arrays(Session& session, const std::optional<Interface>& interface, double window_length);
+
+}  // namespace talus::coupler

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "coupler/launch/child.hpp"
+#include "coupler/messages/messages.hpp"
+#include "coupler/messages/output_arrays.hpp"
+#include "coupler/participant.hpp"
+#include "coupler/transport/layout.hpp"
+#include "coupler/transport/mailbox.hpp"
+
+namespace talus::coupler {
+
+/// A participant as the coupler sees it: a channel, and the process behind it where there is one.
+class Peer {
+ public:
+  Peer(Role role, transport::Channel& channel);
+
+  Role role() const { return role_; }
+  std::string label() const;  ///< "structure (fem_solver, pid 1234)"
+  void set_program(std::string name) { program_ = std::move(name); }
+  void set_child(launch::Child child) { child_.emplace(std::move(child)); }
+  launch::Child* child() { return child_ ? &*child_ : nullptr; }
+  transport::Channel& channel() { return channel_; }
+
+  /// Why no answer will ever come, or nothing while one still may.
+  std::optional<std::string> lost();
+  bool has_failed() const;
+  [[noreturn]] void throw_its_failure(const FailureContext& context) const;
+  /// Called once it has joined: from now on its own process is watched too, be it a child or not.
+  void watch_process();
+  bool process_ended();
+  void kill();
+
+  /// Interface and output arrays; valid once the data block exists.
+  std::span<double> array(transport::ArrayName name) const { return arrays_[static_cast<std::size_t>(name)]; }
+  void set_arrays(std::span<std::byte> data);
+  const Declaration& declaration() const { return declaration_; }
+  const OutputArrays& output_arrays() const { return output_arrays_; }
+  void set_declaration(Declaration declaration);
+
+ private:
+  Role role_;
+  transport::Channel& channel_;
+  std::string program_;
+  std::optional<launch::Child> child_;
+  transport::ProcessHandle process_;
+  std::array<std::span<double>, transport::array_count> arrays_;
+  Declaration declaration_;
+  OutputArrays output_arrays_;
+};
+
+const char* name_of(Role role);
+/// "advance", "report": for messages.
+const char* name_of(Action action);
+
+}  // namespace talus::coupler

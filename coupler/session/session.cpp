@@ -1,0 +1,228 @@
+#include "coupler/session/session.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+#include <filesystem>
+
+#include "core/errors.hpp"
+#include "coupler/transport/signal.hpp"
+
+namespace talus::coupler {
+
+using namespace transport;
+
+Session::Session(std::shared_ptr<Segment> segment, SessionOptions options)
+    : segment_(std::move(segment)),
+      options_(std::move(options)),
+      control_(initialise(segment_->control(), segment_->name().starts_with("talus-"))) {
+  if (!segment_->name().starts_with("talus-")) return;
+  const ProcessIdentity self = this_process();
+  control_.header.coupler_start = self.start;
+  control_.header.coupler_pid = self.pid;
+}
+
+Session::~Session() {
+  abort("it did not say why");
+}
+
+Peer& Session::await(Role role) {
+  peers_.push_back(std::make_unique<Peer>(role, control_.channels[static_cast<std::size_t>(role)]));
+  return *peers_.back();
+}
+
+Peer& Session::launch(Role role, const std::vector<std::string>& command) {
+  Peer& peer = await(role);
+  std::vector<std::string> full = command;
+  full.insert(full.end(), {"--join", segment_->name()});
+  peer.set_program(std::filesystem::path(command.front()).filename());
+  peer.set_child(launch::Child(full));
+  return peer;
+}
+
+Peer* Session::find(Role role) {
+  const auto found =
+      std::find_if(peers_.begin(), peers_.end(), [role](const auto& peer) { return peer->role() == role; });
+  return found == peers_.end() ? nullptr : found->get();
+}
+
+std::vector<Peer*> Session::peers() {
+  std::vector<Peer*> all;
+  for (const auto& peer : peers_) all.push_back(peer.get());
+  return all;
+}
+
+bool Session::matters(Peer& peer, const Waiting& waiting) const {
+  switch (phase_) {
+    case Phase::joining:
+      return !peer.has_failed();
+    case Phase::setting_up:
+      return &peer == &waiting.peer;
+    case Phase::running:
+      break;
+  }
+  return true;
+}
+
+void Session::check_alive(const Waiting& waiting) {
+  for (const auto& peer : peers_) {
+    if (!matters(*peer, waiting)) continue;
+    // Asked before the failure is looked at: a peer that failed and left since then is found to have failed.
+    const auto reason = peer->lost();
+    if (peer->has_failed()) {
+      peer->throw_its_failure({.peer = peer->label(), .waited_for = waiting.what, .window = window_});
+    }
+    if (reason) {
+      throw core::TransportError(
+          {.peer = peer->label(), .waited_for = waiting.what, .window = window_, .reason = *reason});
+    }
+  }
+}
+
+void Session::look_around(const Waiting& waiting, double seconds) {
+  std::atomic_ref(control_.header.heartbeat).fetch_add(1, std::memory_order_relaxed);
+  check_alive(waiting);
+  if (phase_ != Phase::running && options_.interrupted()) throw Interrupted{};
+  if (seconds <= waiting.limit) return;
+  const auto pid = static_cast<pid_t>(waiting.peer.channel().pid);
+  const std::string condition = pid > 0 ? fmt::format("; its process {}", process_condition(pid)) : "";
+  throw core::TransportError(
+      {.peer = waiting.peer.label(),
+       .waited_for = waiting.what,
+       .window = window_,
+       .reason = fmt::format("gave no answer for {:g} s (hangs{})", waiting.limit, condition)});
+}
+
+void Session::wait_joined() {
+  for (const auto& peer : peers_) {
+    const Waiting waiting{.peer = *peer, .what = "it to join", .limit = options_.join_timeout};
+    wait(peer->channel().answer_posted, [&](double seconds) { look_around(waiting, seconds); });
+    check_alive(waiting);
+    peer->watch_process();
+  }
+  segment_->remove_name();
+  phase_ = Phase::setting_up;
+}
+
+LookAround Session::looking(Peer& peer, const std::string& what) {
+  return [this, &peer, what](double seconds) {
+    look_around({.peer = peer, .what = what, .limit = options_.timeout}, seconds);
+  };
+}
+
+Message Session::receive(Peer& peer, const std::string& what) {
+  return transport::receive(peer.channel(), Side::coupler, looking(peer, what));
+}
+
+void Session::send(Peer& peer, MessageKind kind, ByteView bytes) {
+  transport::send(peer.channel(), Side::coupler, kind, bytes, looking(peer, "its surface to be taken"));
+}
+
+void Session::request_array(Peer& peer, ArrayName name, std::size_t count) {
+  peer.channel().arrays[static_cast<std::size_t>(name)].count = count;
+}
+
+void Session::create_arrays() {
+  std::uint64_t bytes = 0;
+  for (const auto& peer : peers_) {
+    for (auto& slot : peer->channel().arrays) {
+      slot.offset = bytes;
+      bytes += (slot.count * sizeof(double) + array_alignment - 1) / array_alignment * array_alignment;
+    }
+  }
+  phase_ = Phase::running;
+  segment_->create_data(bytes);
+  control_.header.data_bytes = bytes;
+  for (const auto& peer : peers_) peer->set_arrays(segment_->data());
+}
+
+void Session::post(Peer& peer, const Command& command) {
+  CommandRecord& record = peer.channel().command;
+  if (command.path.size() >= record.path.size()) {
+    throw core::UsageError(fmt::format("a checkpoint's path may have {} bytes, '{}' has more",
+                                       record.path.size() - 1, command.path));
+  }
+  record.action = static_cast<std::uint32_t>(command.action);
+  record.fields = command.fields ? 1 : 0;
+  record.window = command.window;
+  record.iteration = command.iteration;
+  record.time = command.time;
+  record.length = command.length;
+  std::memcpy(record.path.data(), command.path.c_str(), command.path.size() + 1);
+  window_ = command.window;
+  action_ = command.action;
+  transport::post(peer.channel().command_posted, peer.channel().commands);
+}
+
+void Session::wait_answer(Peer& peer) {
+  Channel& channel = peer.channel();
+  wait(channel.answer_posted, [&](double seconds) {
+    look_around({.peer = peer,
+                 .what = fmt::format("the answer to '{}'", name_of(action_)),
+                 .limit = options_.timeout},
+                seconds);
+  });
+  (void)load(channel.answers);
+  if (load(channel.state) != static_cast<std::uint32_t>(ChannelState::joined)) {
+    check_alive({.peer = peer, .what = fmt::format("the answer to '{}'", name_of(action_))});
+  }
+}
+
+bool Session::everybody_left(double seconds) {
+  const auto left = [](const std::unique_ptr<Peer>& peer) {
+    // A thread of this process has no process of its own; its channel says that it left. One that never
+    // joined need not leave.
+    const auto state = static_cast<ChannelState>(load(peer->channel().state));
+    const bool is_process =
+        peer->child() != nullptr || (peer->channel().pid > 0 && peer->channel().pid != this_process().pid);
+    return is_process ? peer->process_ended() : state != ChannelState::joined;
+  };
+  for (double waited = 0;; waited += slice_seconds / 10) {
+    if (std::all_of(peers_.begin(), peers_.end(), left)) return true;
+    if (waited >= seconds) return false;
+    timespec pause{.tv_sec = 0, .tv_nsec = static_cast<long>(slice_seconds / 10 * 1e9)};
+    nanosleep(&pause, nullptr);
+  }
+}
+
+void Session::finish() {
+  for (const auto& peer : peers_) post(*peer, {.action = Action::finish, .window = window_});
+  if (!everybody_left(options_.timeout)) {
+    for (const auto& peer : peers_) {
+      if (peer->process_ended()) continue;
+      throw core::TransportError(
+          {.peer = peer->label(),
+           .waited_for = "it to leave",
+           .window = window_,
+           .reason = fmt::format("did not leave within {:g} s of the command to finish", options_.timeout)});
+    }
+  }
+  over_ = true;
+  store(control_.header.state, static_cast<std::uint32_t>(RunState::ended));
+  for (const auto& peer : peers_) {
+    const auto status = peer->child() != nullptr ? peer->child()->status() : std::nullopt;
+    if (status && (status->code != 0 || status->signal != 0)) {
+      throw core::TransportError(
+          {.peer = peer->label(), .waited_for = "it to leave", .window = window_, .reason = status->text()});
+    }
+  }
+}
+
+void Session::abort(const std::string& why) noexcept {
+  if (over_) return;
+  over_ = true;
+  Header& header = control_.header;
+  const auto bytes = std::min(why.size(), header.abort_text.size());
+  std::copy_n(why.begin(), bytes, header.abort_text.begin());
+  store(header.abort_text_bytes, static_cast<std::uint32_t>(bytes));
+  store(header.state, static_cast<std::uint32_t>(RunState::aborted));
+  for (const auto& peer : peers_) sem_post(&peer->channel().command_posted);
+  segment_->remove_name();
+  if (everybody_left(options_.grace)) return;
+  for (const auto& peer : peers_) {
+    if (!peer->process_ended()) peer->kill();
+  }
+}
+
+}  // namespace talus::coupler
