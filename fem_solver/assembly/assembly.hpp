@@ -1,0 +1,39 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "fem_solver/assembly/team.hpp"
+#include "fem_solver/model/model.hpp"
+
+namespace talus::fem {
+
+/// From element forces to node forces without races: every element writes its own slots, then every node sums the slots that belong
+/// to it in a fixed order. So the result has the same bits for any number of threads.
+class Assembly {
+ public:
+  /// @pre model outlives the assembly and its parts are not changed
+  Assembly(const Model& model, Team team);
+
+  /// force = -dU/du at every node. All spans 3 a node; displacement in m, force in N.
+  void internal_force(std::span<const double> displacement, std::span<double> force) noexcept;
+  /// product = (d2U/du2) direction at every node.
+  void stiffness_product(std::span<const double> displacement, std::span<const double> direction,
+                         std::span<double> product) noexcept;
+
+  const Model& model() const { return model_; }
+  const Team& team() const { return team_; }
+
+ private:
+  std::span<double> slots_of(std::size_t part) noexcept;
+  void gather(double factor, std::span<double> sums) const noexcept;
+
+  const Model& model_;
+  Team team_;
+  std::vector<std::size_t> slot_begin_;  ///< of each part
+  std::vector<double> slots_;            ///< 3 a slot
+  std::vector<Index> incidence_begin_;   ///< of each node, and the end
+  std::vector<Index> incidence_;         ///< 2 slot + (1 where the node feels the slot negated)
+};
+
+}  // namespace talus::fem

@@ -1,0 +1,223 @@
+#include "fem_solver/integration/explicit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <type_traits>
+
+#include "core/errors.hpp"
+
+namespace talus::fem {
+namespace {
+
+struct NoTerm {};
+struct MassDampingTerm {};
+
+std::size_t supported_nodes(const Model& model) {
+  std::size_t count = 0;
+  for (const auto& support : model.supports) count += support.nodes.size();
+  return count;
+}
+
+/// visit(support, node, offset into the reactions)
+template <class Visit>
+void for_each_support(const Model& model, const Visit& visit) {
+  std::size_t offset = 0;
+  for (const auto& support : model.supports) {
+    for (const Index node : support.nodes) {
+      visit(support, 3 * static_cast<std::size_t>(node), offset);
+      offset += 3;
+    }
+  }
+}
+
+}  // namespace
+
+ExplicitSolver::ExplicitSolver(const Model& model, Assembly& assembly) : model_(model), assembly_(assembly) {
+  const std::size_t values = model.reference.size();
+  state_.displacement.assign(values, 0);
+  state_.velocity.assign(values, 0);
+  state_.force.assign(values, 0);
+  state_.reactions.assign(3 * supported_nodes(model), 0);
+  inverse_mass_.resize(model.node_masses.size());
+  std::ranges::transform(model.node_masses, inverse_mass_.begin(), [](double m) { return m > 0 ? 1 / m : 0; });
+  if (model.damping.stiffness > 0) damping_force_.resize(values);
+  partial_.resize(static_cast<std::size_t>(Team::blocks(model.nodes())));
+}
+
+void ExplicitSolver::step(double time, double step) {
+  state_.kick = 0.5 * (state_.previous_step + step);
+  evaluate_forces(time);
+  impose_supports(time, step);
+  arrive(time);
+  const double activity =
+      model_.damping.mass > 0 ? advance_nodes<MassDampingTerm>(step) : advance_nodes<NoTerm>(step);
+  leave(time, step);
+  state_.previous_step = step;
+  ++state_.steps;
+  if (!std::isfinite(activity)) report_blow_up(time + step);
+}
+
+void ExplicitSolver::evaluate_forces(double time) noexcept {
+  assembly_.internal_force(state_.displacement, state_.force);
+  if (model_.damping.stiffness > 0) subtract_stiffness_damping();
+  add_external_forces(time);
+}
+
+void ExplicitSolver::subtract_stiffness_damping() noexcept {
+  assembly_.stiffness_product(state_.displacement, state_.velocity, damping_force_);
+  assembly_.team().run(static_cast<Index>(state_.force.size()), [&](Range values) {
+    for (Index i = values.begin; i < values.end; ++i) {
+      damping_force_[i] *= model_.damping.stiffness;
+      state_.force[i] -= damping_force_[i];
+    }
+  });
+}
+
+void ExplicitSolver::add_external_forces(double time) noexcept {
+  if (model_.gravity) {
+    assembly_.team().run(model_.nodes(), [&](Range nodes) {
+      for (Index i = nodes.begin; i < nodes.end; ++i)
+        Vector3::Map(&state_.force[3 * i]) += model_.node_masses[i] * *model_.gravity;
+    });
+  }
+  for (const auto& load : model_.loads) {
+    const Vector3 force = load.history.at(time) * load.force;
+    for (const Index node : load.nodes) Vector3::Map(&state_.force[3 * node]) += force;
+  }
+  for (std::size_t k = 0; k < interface_.nodes.size(); ++k)
+    Vector3::Map(&state_.force[3 * interface_.nodes[k]]) += Vector3::Map(&interface_.force[3 * k]);
+}
+
+void ExplicitSolver::impose_supports(double time, double step) noexcept {
+  const double half_damping = 0.5 * model_.damping.mass * state_.kick;
+  for_each_support(model_, [&](const Support& support, std::size_t dof, std::size_t offset) {
+    const Vector3 target = support.history.at(time + step) * support.displacement;
+    for (std::size_t c = 0; c < 3; ++c) {
+      if (!support.fixed[c]) continue;
+      const double after = (target[static_cast<int>(c)] - state_.displacement[dof + c]) / step;
+      const double momentum_change = (1 + half_damping) * after - (1 - half_damping) * state_.velocity[dof + c];
+      const double needed = model_.node_masses[dof / 3] * momentum_change / state_.kick;
+      state_.reactions[offset + c] = needed - state_.force[dof + c];
+      state_.force[dof + c] = needed;
+    }
+  });
+}
+
+template <class MassDamping>
+double ExplicitSolver::advance_nodes(double step) noexcept {
+  constexpr bool damped = std::is_same_v<MassDamping, MassDampingTerm>;
+  const double half_damping = 0.5 * model_.damping.mass * state_.kick;
+  const double keep = (1 - half_damping) / (1 + half_damping), gain = state_.kick / (1 + half_damping);
+  const double half_before = 0.5 * state_.previous_step, half_after = 0.5 * step;
+  const double sum = assembly_.team().sum(model_.nodes(), partial_, [&](Range nodes) {
+    double sums[3] = {0, 0, 0};
+    for (Index node = nodes.begin; node < nodes.end; ++node) {
+      const double mass = model_.node_masses[node], kick_over_mass = gain * inverse_mass_[node];
+      for (Index c = 0; c < 3; ++c) {
+        const Index i = 3 * node + c;
+        const double before = state_.velocity[i];
+        const double after = (damped ? keep * before : before) + kick_over_mass * state_.force[i];
+        state_.velocity[i] = after;
+        state_.displacement[i] += step * after;
+        sums[c] += damped ? mass * (before + after) * (half_before * before + half_after * after) : mass * after * after;
+      }
+    }
+    return sums[0] + sums[1] + sums[2];
+  });
+  if constexpr (damped) state_.damped += 0.5 * model_.damping.mass * sum;
+  return sum;
+}
+
+// A force at t_n does half its work over the step before t_n and half over the step after it; only so does the sum of works match
+// the leapfrog's invariant. arrive() books the first half, leave() keeps the second for the next arrival.
+void ExplicitSolver::arrive(double time) noexcept {
+  const Powers power = powers(time);
+  const double half = 0.5 * state_.previous_step;
+  for (std::size_t k = 0; k < power.size(); ++k) state_.works[k].done += state_.works[k].pending + half * power[k];
+}
+
+void ExplicitSolver::leave(double time, double step) noexcept {
+  const Powers power = powers(time);
+  for (std::size_t k = 0; k < power.size(); ++k) state_.works[k].pending = 0.5 * step * power[k];
+}
+
+ExplicitSolver::Powers ExplicitSolver::powers(double time) const noexcept {
+  Powers power{};
+  for (const auto& load : model_.loads) {
+    const Vector3 force = load.history.at(time) * load.force;
+    for (const Index node : load.nodes) power[by_loads] += force.dot(Vector3::Map(&state_.velocity[3 * node]));
+  }
+  for_each_support(model_, [&](const Support& support, std::size_t dof, std::size_t offset) {
+    if (!support.moves()) return;
+    for (std::size_t c = 0; c < 3; ++c) power[by_supports] += state_.reactions[offset + c] * state_.velocity[dof + c];
+  });
+  for (std::size_t k = 0; k < interface_.nodes.size(); ++k) {
+    const auto velocity = Vector3::Map(&state_.velocity[3 * interface_.nodes[k]]);
+    power[by_interface] += Vector3::Map(&interface_.force[3 * k]).dot(velocity);
+  }
+  for (std::size_t i = 0; i < damping_force_.size(); ++i)
+    power[by_stiffness_damping] += damping_force_[i] * state_.velocity[i];
+  return power;
+}
+
+EnergyBalance ExplicitSolver::balance(double time, double next_step) {
+  if (state_.steps == 0) {
+    state_.kick = 0.5 * next_step;
+    evaluate_forces(time);
+    impose_supports(time, next_step);
+  }
+  const std::vector<double> displacement = displacement_at_evaluation();
+  EnergyBalance balance;
+  add_kinetic(balance);
+  for (const auto& part : model_.parts)
+    balance.elastic.push_back(std::visit([&](const auto& batch) { return batch.energy(displacement); }, part.elements));
+  if (model_.gravity) {
+    for (Index node = 0; node < model_.nodes(); ++node)
+      balance.gravity -= model_.node_masses[node] * model_.gravity->dot(Vector3::Map(&displacement[3 * node]));
+  }
+  balance.bulk_damping += state_.damped + state_.works[by_stiffness_damping].done;
+  balance.loads = state_.works[by_loads].done;
+  balance.supports = state_.works[by_supports].done;
+  balance.interface = state_.works[by_interface].done;
+  return balance;
+}
+
+std::vector<double> ExplicitSolver::displacement_at_evaluation() const {
+  std::vector<double> displacement = state_.displacement;
+  for (std::size_t i = 0; i < displacement.size(); ++i) displacement[i] -= state_.previous_step * state_.velocity[i];
+  return displacement;
+}
+
+// The velocity half a step before the evaluation follows from the one behind it and the force, so no step has to store it. Before
+// the first step the stored velocity is that at the start, half a kick away from both.
+void ExplicitSolver::add_kinetic(EnergyBalance& balance) const {
+  const double half_damping = 0.5 * model_.damping.mass * state_.kick;
+  const bool at_start = state_.steps == 0;
+  double twice_kinetic = 0, damped_behind = 0;
+  for (std::size_t i = 0; i < state_.velocity.size(); ++i) {
+    const double mass = model_.node_masses[i / 3], v = state_.velocity[i];
+    const double change = state_.kick * inverse_mass_[i / 3] * state_.force[i];
+    const double after = at_start ? ((1 - half_damping) * v + change) / (1 + half_damping) : v;
+    const double before = at_start ? 2 * v - after : ((1 + half_damping) * v - change) / (1 - half_damping);
+    twice_kinetic += mass * before * after;
+    damped_behind += mass * 0.5 * (before + after) * after;
+  }
+  balance.kinetic = 0.5 * twice_kinetic;
+  if (!at_start) balance.bulk_damping = -0.5 * model_.damping.mass * state_.previous_step * damped_behind;
+  }
+
+void ExplicitSolver::report_blow_up(double time) const {
+  const auto worst = std::ranges::max_element(state_.velocity, {}, [](double v) {
+    return std::isfinite(v) ? std::abs(v) : std::numeric_limits<double>::infinity();
+  });
+  const auto node = static_cast<Index>((worst - state_.velocity.begin()) / 3);
+  throw core::NumericalError({.what = "the velocity is not finite",
+                              .entity = "velocity of " + node_name(model_, node),
+                              .step = state_.steps,
+                              .time = time,
+                              .value = *worst,
+                              .last_output_time = last_output_time});
+}
+
+}  // namespace talus::fem

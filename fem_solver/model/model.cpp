@@ -1,0 +1,35 @@
+#include "fem_solver/model/model.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace talus::fem {
+
+double TimeTable::at(double time) const {
+  if (points.empty()) return 1;
+  if (time <= points.front().first) return points.front().second;
+  const auto next = std::upper_bound(points.begin(), points.end(), time,
+                                     [](double t, const auto& point) { return t < point.first; });
+  if (next == points.end()) return points.back().second;
+  const auto& [t0, f0] = *(next - 1);
+  const auto& [t1, f1] = *next;
+  return f0 + (f1 - f0) * (time - t0) / (t1 - t0);
+}
+
+void lump_masses(Model& model) {
+  model.node_masses.assign(static_cast<std::size_t>(model.nodes()), 0.0);
+  for (const auto& part : model.parts)
+    std::visit([&](const auto& batch) { batch.add_mass(model.node_masses); }, part.elements);
+}
+
+std::string node_name(const Model& model, Index node) {
+  const Vector3 x = model.position(node);
+  const auto owner = std::find_if(model.parts.begin(), model.parts.end(), [node](const Part& part) {
+    return std::binary_search(part.nodes.begin(), part.nodes.end(), node);
+  });
+  const std::string of = owner == model.parts.end() ? "" : " of " + owner->name;
+  return fmt::format("node {}{} at ({:.6g}, {:.6g}, {:.6g}) m", node, of, x.x(), x.y(), x.z());
+}
+
+}  // namespace talus::fem

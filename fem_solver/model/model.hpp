@@ -1,0 +1,81 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "fem_solver/model/two_node_batch.hpp"
+
+/// The structure as arrays: what the scene describes, free of YAML, time integration and output.
+namespace talus::fem {
+
+/// The elements of one part. Every alternative offers, with `displacement` 3 a node (m):
+///   size(), slots()                       elements, and force vectors they write
+///   for_each_incidence(visit)             visit(node, slot, sign): which slots sum up to a node's force, in a fixed order
+///   internal_force(u, slots, range)       dU/du of the elements of a range (N); noexcept, no allocation
+///   stiffness_product(u, w, slots, range) (d2U/du2) w
+///   stiffness(u, sink)                    d2U/du2 as 3x3 blocks
+///   energy(u)                             U (J), zero at the reference state
+///   add_mass(node_masses)                 lumped (kg)
+using ElementBatch = std::variant<BarBatch, CableBatch>;
+
+struct Part {
+  std::string name;
+  ElementBatch elements;
+  std::vector<Index> nodes;  ///< that its elements touch, ascending
+};
+
+/// A factor over time, linear between its points and constant beyond them; empty: 1.
+struct TimeTable {
+  std::vector<std::pair<double, double>> points;  ///< s, factor; ascending
+  double at(double time) const;
+};
+
+/// Nodes whose motion is given in some directions.
+struct Support {
+  std::string name;
+  std::vector<Index> nodes;
+  std::array<bool, 3> fixed{};
+  Vector3 displacement = Vector3::Zero();  ///< m; times `history`
+  TimeTable history;
+  bool moves() const { return !displacement.isZero(0); }
+};
+
+/// The same force on each of some nodes.
+struct NodalLoad {
+  std::string name;
+  std::vector<Index> nodes;
+  Vector3 force = Vector3::Zero();  ///< N on each node; times `history`
+  TimeTable history;
+};
+
+/// Rayleigh damping C = mass M + stiffness K, with the current tangent K.
+struct Damping {
+  double mass = 0;       ///< 1/s
+  double stiffness = 0;  ///< s
+};
+
+struct Model {
+  std::vector<double> reference;    ///< m; node positions, 3 a node
+  std::vector<double> node_masses;  ///< kg; of elements and point masses
+  std::vector<Part> parts;
+  std::map<std::string, std::vector<Index>> node_sets;
+  std::vector<Support> supports;
+  std::vector<NodalLoad> loads;
+  std::optional<Vector3> gravity;  ///< m/s^2
+  Damping damping;
+
+  Index nodes() const { return static_cast<Index>(reference.size() / 3); }
+  Vector3 position(Index node) const { return Vector3::Map(&reference[3 * static_cast<std::size_t>(node)]); }
+};
+
+/// Sums node_masses from the elements. Point masses are added by whoever knows them.
+void lump_masses(Model& model);
+
+/// "node 17 of net at (1.5, 1.5, 0) m"
+std::string node_name(const Model& model, Index node);
+
+}  // namespace talus::fem

@@ -1,0 +1,54 @@
+#include "fem_solver/model/two_node_batch.hpp"
+
+#include <utility>
+
+namespace talus::fem {
+
+template <class Compression>
+TwoNodeBatch<Compression>::TwoNodeBatch(const AxialPart& part, std::vector<std::array<Index, 2>> segments,
+                                        std::span<const double> reference)
+    : part_(part), segments_(std::move(segments)) {
+  reference_.resize(3 * segments_.size());
+  inverse_length_.resize(segments_.size());
+  for (Index e = 0; e < size(); ++e) {
+    const Vector3 span = difference(reference, e);
+    Vector3::Map(&reference_[3 * at(e)]) = span;
+    inverse_length_[at(e)] = 1 / span.norm();
+  }
+}
+
+template <class Compression>
+void TwoNodeBatch<Compression>::internal_force(std::span<const double> displacement, std::span<double> slots,
+                                               Range range) const noexcept {
+  for (Index e = range.begin; e < range.end; ++e)
+    Vector3::Map(&slots[3 * at(e)]) = element(e).force(difference(displacement, e));
+}
+
+template <class Compression>
+void TwoNodeBatch<Compression>::stiffness_product(std::span<const double> displacement, std::span<const double> direction,
+                                                  std::span<double> slots, Range range) const noexcept {
+  for (Index e = range.begin; e < range.end; ++e)
+    Vector3::Map(&slots[3 * at(e)]) =
+        element(e).stiffness_product(difference(displacement, e), difference(direction, e));
+}
+
+template <class Compression>
+double TwoNodeBatch<Compression>::energy(std::span<const double> displacement) const noexcept {
+  double sum = 0;
+  for (Index e = 0; e < size(); ++e) sum += element(e).energy(difference(displacement, e));
+  return sum;
+}
+
+template <class Compression>
+void TwoNodeBatch<Compression>::add_mass(std::span<double> node_masses) const noexcept {
+  for (Index e = 0; e < size(); ++e) {
+    const double half = 0.5 * part_.density * part_.section.area / inverse_length_[at(e)];
+    node_masses[at(segments_[at(e)][0])] += half;
+    node_masses[at(segments_[at(e)][1])] += half;
+  }
+}
+
+template class TwoNodeBatch<CarriesCompression>;
+template class TwoNodeBatch<TensionOnly>;
+
+}  // namespace talus::fem

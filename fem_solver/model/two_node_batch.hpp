@@ -1,0 +1,95 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "fem_solver/elements/axial.hpp"
+#include "fem_solver/model/index.hpp"
+
+namespace talus::fem {
+
+/// What a part needs to know of its material besides the elastic law.
+struct AxialPart {
+  AxialSection section;
+  double density = 0;  ///< kg/m^3
+};
+
+/// All two-node elements of a part, as arrays. One force slot an element: the far node's force, which the near one feels negated.
+/// @see ElementBatch for the meaning of the members.
+template <class Compression>
+class TwoNodeBatch {
+ public:
+  /// @param reference node positions, 3 a node (m)
+  /// @pre every segment joins two nodes at different places
+  TwoNodeBatch(const AxialPart& part, std::vector<std::array<Index, 2>> segments, std::span<const double> reference);
+
+  Index size() const { return static_cast<Index>(segments_.size()); }
+  Index slots() const { return size(); }
+  const std::vector<std::array<Index, 2>>& cells() const { return segments_; }
+
+  template <class Visit>
+  void for_each_incidence(const Visit& visit) const {
+    for (Index e = 0; e < size(); ++e) {
+      visit(segments_[at(e)][0], e, -1);
+      visit(segments_[at(e)][1], e, +1);
+    }
+  }
+
+  void internal_force(std::span<const double> displacement, std::span<double> slots, Range range) const noexcept;
+  void stiffness_product(std::span<const double> displacement, std::span<const double> direction, std::span<double> slots,
+                         Range range) const noexcept;
+  double energy(std::span<const double> displacement) const noexcept;
+  void add_mass(std::span<double> node_masses) const noexcept;
+
+  /// sink(row node, column node, 3x3 block), the same blocks in the same order whatever the state.
+  template <class Sink>
+  void stiffness(std::span<const double> displacement, const Sink& sink) const {
+    for (Index e = 0; e < size(); ++e) {
+      const auto [near, far] = segments_[at(e)];
+      const Matrix3 K = element(e).stiffness(difference(displacement, e));
+      sink(near, near, K);
+      sink(near, far, -K);
+      sink(far, near, -K);
+      sink(far, far, K);
+    }
+  }
+
+  double axial_force(std::span<const double> displacement, Index e) const noexcept {
+    return element(e).axial_force(difference(displacement, e));
+  }
+  /// Moduli that carry waves along and across an element (Pa, per reference area); 0 where a cable is slack.
+  struct WaveModuli {
+    double along, across;
+  };
+  WaveModuli wave_moduli(std::span<const double> displacement, Index e) const noexcept {
+    const AxialElement<Compression> bar = element(e);
+    const double strain = bar.strain(difference(displacement, e)), trial = bar.trial_stress(strain);
+    const double stress = Compression::stress(trial);
+    return {Compression::modulus(trial, part_.section.youngs_modulus) * (1 + 2 * strain) + stress, stress};
+  }
+  double reference_length(Index e) const noexcept { return 1 / inverse_length_[at(e)]; }
+  const AxialPart& part() const { return part_; }
+  AxialElement<Compression> element(Index e) const noexcept {
+    return {Vector3::Map(&reference_[3 * at(e)]), inverse_length_[at(e)], part_.section};
+  }
+
+ private:
+  static std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+  Vector3 difference(std::span<const double> values, Index e) const noexcept {
+    const auto [near, far] = segments_[at(e)];
+    return Vector3::Map(&values[3 * at(far)]) - Vector3::Map(&values[3 * at(near)]);
+  }
+
+  AxialPart part_;
+  std::vector<std::array<Index, 2>> segments_;
+  std::vector<double> reference_;       ///< m; near to far node, 3 an element
+  std::vector<double> inverse_length_;  ///< 1/m
+};
+
+using BarBatch = TwoNodeBatch<CarriesCompression>;
+using CableBatch = TwoNodeBatch<TensionOnly>;
+extern template class TwoNodeBatch<CarriesCompression>;
+extern template class TwoNodeBatch<TensionOnly>;
+
+}  // namespace talus::fem
