@@ -10,9 +10,12 @@ template <class Visit>
 void for_each_incidence(const Model& model, const std::vector<std::size_t>& slot_begin, const Visit& visit) {
   for (std::size_t p = 0; p < model.parts.size(); ++p) {
     const auto begin = static_cast<Index>(slot_begin[p]);
-    std::visit([&](const auto& batch) {
-      batch.for_each_incidence([&](Index node, Index slot, int sign) { visit(node, begin + slot, sign); });
-    }, model.parts[p].elements);
+    std::visit(
+        [&](const auto& batch) {
+          batch.for_each_incidence(
+              [&](Index node, Index slot, int sign) { visit(node, begin + slot, sign); });
+        },
+        model.parts[p].elements);
   }
 }
 
@@ -22,27 +25,35 @@ Assembly::Assembly(const Model& model, Team team) : model_(model), team_(team) {
   std::size_t slots = 0;
   for (const auto& part : model.parts) {
     slot_begin_.push_back(slots);
-    slots += static_cast<std::size_t>(std::visit([](const auto& batch) { return batch.slots(); }, part.elements));
+    slots +=
+        static_cast<std::size_t>(std::visit([](const auto& batch) { return batch.slots(); }, part.elements));
   }
   slots_.resize(3 * slots);
 
   incidence_begin_.assign(static_cast<std::size_t>(model.nodes()) + 1, 0);
-  for_each_incidence(model, slot_begin_, [&](Index node, Index, int) { ++incidence_begin_[static_cast<std::size_t>(node) + 1]; });
+  for_each_incidence(model, slot_begin_,
+                     [&](Index node, Index, int) { ++incidence_begin_[static_cast<std::size_t>(node) + 1]; });
   std::partial_sum(incidence_begin_.begin(), incidence_begin_.end(), incidence_begin_.begin());
   incidence_.resize(static_cast<std::size_t>(incidence_begin_.back()));
   std::vector<Index> next(incidence_begin_.begin(), incidence_begin_.end() - 1);
   for_each_incidence(model, slot_begin_, [&](Index node, Index slot, int sign) {
-    incidence_[static_cast<std::size_t>(next[static_cast<std::size_t>(node)]++)] = 2 * slot + (sign < 0 ? 1 : 0);
+    incidence_[static_cast<std::size_t>(next[static_cast<std::size_t>(node)]++)] =
+        2 * slot + (sign < 0 ? 1 : 0);
   });
 }
 
-std::span<double> Assembly::slots_of(std::size_t part) noexcept { return std::span(slots_).subspan(3 * slot_begin_[part]); }
+std::span<double> Assembly::slots_of(std::size_t part) noexcept {
+  return std::span(slots_).subspan(3 * slot_begin_[part]);
+}
 
 void Assembly::internal_force(std::span<const double> displacement, std::span<double> force) noexcept {
   for (std::size_t p = 0; p < model_.parts.size(); ++p) {
-    std::visit([&](const auto& batch) {
-      team_.run(batch.size(), [&](Range range) { batch.internal_force(displacement, slots_of(p), range); });
-    }, model_.parts[p].elements);
+    std::visit(
+        [&](const auto& batch) {
+          team_.run(batch.size(),
+                    [&](Range range) { batch.internal_force(displacement, slots_of(p), range); });
+        },
+        model_.parts[p].elements);
   }
   gather(-1, force);
 }
@@ -50,10 +61,13 @@ void Assembly::internal_force(std::span<const double> displacement, std::span<do
 void Assembly::stiffness_product(std::span<const double> displacement, std::span<const double> direction,
                                  std::span<double> product) noexcept {
   for (std::size_t p = 0; p < model_.parts.size(); ++p) {
-    std::visit([&](const auto& batch) {
-      team_.run(batch.size(),
-                [&](Range range) { batch.stiffness_product(displacement, direction, slots_of(p), range); });
-    }, model_.parts[p].elements);
+    std::visit(
+        [&](const auto& batch) {
+          team_.run(batch.size(), [&](Range range) {
+            batch.stiffness_product(displacement, direction, slots_of(p), range);
+          });
+        },
+        model_.parts[p].elements);
   }
   gather(1, product);
 }

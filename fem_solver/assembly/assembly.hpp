@@ -8,8 +8,8 @@
 
 namespace talus::fem {
 
-/// From element forces to node forces without races: every element writes its own slots, then every node sums the slots that belong
-/// to it in a fixed order. So the result has the same bits for any number of threads.
+/// From element forces to node forces without races: every element writes its own slots, then every node sums
+/// the slots that belong to it in a fixed order. So the result has the same bits for any number of threads.
 class Assembly {
  public:
   /// @pre model outlives the assembly and its parts are not changed

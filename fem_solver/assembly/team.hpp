@@ -8,8 +8,8 @@
 
 namespace talus::fem {
 
-/// Runs loops on a fixed number of threads. Work is cut into blocks whose borders depend on the count alone, never on the number
-/// of threads, so that sums over blocks have the same bits for any team.
+/// Runs loops on a fixed number of threads. Work is cut into blocks whose borders depend on the count alone,
+/// never on the number of threads, so that sums over blocks have the same bits for any team.
 class Team {
  public:
   static constexpr Index block_size = 1024;

@@ -4,7 +4,8 @@
 
 #include "core/vector3.hpp"
 
-/// Energy, force, stiffness and mass of a straight segment between two nodes that carries an axial stress only: bar and cable.
+/// Energy, force, stiffness and mass of a straight segment between two nodes that carries an axial stress
+/// only: bar and cable.
 namespace talus::fem {
 
 using core::Vector3;
@@ -24,11 +25,13 @@ struct CarriesCompression {
 };
 struct TensionOnly {
   static constexpr double stress(double trial) noexcept { return trial > 0 ? trial : 0; }
-  static constexpr double modulus(double trial, double youngs_modulus) noexcept { return trial > 0 ? youngs_modulus : 0; }
+  static constexpr double modulus(double trial, double youngs_modulus) noexcept {
+    return trial > 0 ? youngs_modulus : 0;
+  }
 };
 
-/// Two-node axial element, total Lagrangian. Source: physics of a bar in Green-Lagrange strain, e.g. Bathe, Finite Element
-/// Procedures, section 6.3.3; a cable is the paper's eq. (3) with one segment.
+/// Two-node axial element, total Lagrangian. Source: physics of a bar in Green-Lagrange strain, e.g. Bathe,
+/// Finite Element Procedures, section 6.3.3; a cable is the paper's eq. (3) with one segment.
 ///
 ///     d = D + w        e = (D.w + w.w/2)/L^2  (= (l^2 - L^2)/(2 L^2))        S = E e + S_pre
 ///     U = A L (E e^2/2 + S_pre e)      f = dU/dw = (A S/L) d      K = df/dw = (A E/L^3) d d^T + (A S/L) I
@@ -43,10 +46,11 @@ struct TensionOnly {
 /// | f      | return value       | internal force on the far node; the near one: -f   | N    |
 /// | K      | return value       | the far node's block; the element's is [K -K; -K K]| N/m  |
 ///
-/// The force N t of the textbook form is (A S l/L)(d/l) = (A S/L) d, so neither a square root nor a division is needed, and a
-/// segment squeezed to nothing is as harmless as any other. Valid for any rotation and for strains where E e is the material's law.
-/// A cable (TensionOnly): S < 0 -> S = 0, f = 0, K = 0; U stays at its minimum -A L S_pre^2/(2 E).
-/// Proven by: "the force of a bar and of a cable is the derivative of its energy" (axial_test.cpp).
+/// The force N t of the textbook form is (A S l/L)(d/l) = (A S/L) d, so neither a square root nor a division
+/// is needed, and a segment squeezed to nothing is as harmless as any other. Valid for any rotation and for
+/// strains where E e is the material's law. A cable (TensionOnly): S < 0 -> S = 0, f = 0, K = 0; U stays at
+/// its minimum -A L S_pre^2/(2 E). Proven by: "the force of a bar and of a cable is the derivative of its
+/// energy" (axial_test.cpp).
 template <class Compression>
 struct AxialElement {
   Vector3 reference;
@@ -76,7 +80,8 @@ struct AxialElement {
     const double trial = trial_stress(strain(stretch));
     const double E = Compression::modulus(trial, section.youngs_modulus), S = Compression::stress(trial);
     const double A_over_L = section.area * inverse_length;
-    return (A_over_L * inverse_length * inverse_length * E) * d * d.transpose() + (A_over_L * S) * Matrix3::Identity();
+    return (A_over_L * inverse_length * inverse_length * E) * d * d.transpose() +
+           (A_over_L * S) * Matrix3::Identity();
   }
 
   /// stiffness(stretch) * direction without forming the matrix.
@@ -85,7 +90,8 @@ struct AxialElement {
     const double trial = trial_stress(strain(stretch));
     const double E = Compression::modulus(trial, section.youngs_modulus), S = Compression::stress(trial);
     const double A_over_L = section.area * inverse_length;
-    return (A_over_L * inverse_length * inverse_length * E * d.dot(direction)) * d + (A_over_L * S) * direction;
+    return (A_over_L * inverse_length * inverse_length * E * d.dot(direction)) * d +
+           (A_over_L * S) * direction;
   }
 
   /// Axial force N = A S l/L, positive in tension (N).

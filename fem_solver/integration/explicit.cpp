@@ -40,7 +40,8 @@ ExplicitSolver::ExplicitSolver(const Model& model, Assembly& assembly) : model_(
   state_.force.assign(values, 0);
   state_.reactions.assign(3 * supported_nodes(model), 0);
   inverse_mass_.resize(model.node_masses.size());
-  std::ranges::transform(model.node_masses, inverse_mass_.begin(), [](double m) { return m > 0 ? 1 / m : 0; });
+  std::ranges::transform(model.node_masses, inverse_mass_.begin(),
+                         [](double m) { return m > 0 ? 1 / m : 0; });
   if (model.damping.stiffness > 0) damping_force_.resize(values);
   partial_.resize(static_cast<std::size_t>(Team::blocks(model.nodes())));
 }
@@ -96,7 +97,8 @@ void ExplicitSolver::impose_supports(double time, double step) noexcept {
     for (std::size_t c = 0; c < 3; ++c) {
       if (!support.fixed[c]) continue;
       const double after = (target[static_cast<int>(c)] - state_.displacement[dof + c]) / step;
-      const double momentum_change = (1 + half_damping) * after - (1 - half_damping) * state_.velocity[dof + c];
+      const double momentum_change =
+          (1 + half_damping) * after - (1 - half_damping) * state_.velocity[dof + c];
       const double needed = model_.node_masses[dof / 3] * momentum_change / state_.kick;
       state_.reactions[offset + c] = needed - state_.force[dof + c];
       state_.force[dof + c] = needed;
@@ -120,7 +122,8 @@ double ExplicitSolver::advance_nodes(double step) noexcept {
         const double after = (damped ? keep * before : before) + kick_over_mass * state_.force[i];
         state_.velocity[i] = after;
         state_.displacement[i] += step * after;
-        sums[c] += damped ? mass * (before + after) * (half_before * before + half_after * after) : mass * after * after;
+        sums[c] += damped ? mass * (before + after) * (half_before * before + half_after * after)
+                          : mass * after * after;
       }
     }
     return sums[0] + sums[1] + sums[2];
@@ -129,12 +132,14 @@ double ExplicitSolver::advance_nodes(double step) noexcept {
   return sum;
 }
 
-// A force at t_n does half its work over the step before t_n and half over the step after it; only so does the sum of works match
-// the leapfrog's invariant. arrive() books the first half, leave() keeps the second for the next arrival.
+// A force at t_n does half its work over the step before t_n and half over the step after it; only so does
+// the sum of works match the leapfrog's invariant. arrive() books the first half, leave() keeps the second
+// for the next arrival.
 void ExplicitSolver::arrive(double time) noexcept {
   const Powers power = powers(time);
   const double half = 0.5 * state_.previous_step;
-  for (std::size_t k = 0; k < power.size(); ++k) state_.works[k].done += state_.works[k].pending + half * power[k];
+  for (std::size_t k = 0; k < power.size(); ++k)
+    state_.works[k].done += state_.works[k].pending + half * power[k];
 }
 
 void ExplicitSolver::leave(double time, double step) noexcept {
@@ -146,11 +151,13 @@ ExplicitSolver::Powers ExplicitSolver::powers(double time) const noexcept {
   Powers power{};
   for (const auto& load : model_.loads) {
     const Vector3 force = load.history.at(time) * load.force;
-    for (const Index node : load.nodes) power[by_loads] += force.dot(Vector3::Map(&state_.velocity[3 * node]));
+    for (const Index node : load.nodes)
+      power[by_loads] += force.dot(Vector3::Map(&state_.velocity[3 * node]));
   }
   for_each_support(model_, [&](const Support& support, std::size_t dof, std::size_t offset) {
     if (!support.moves()) return;
-    for (std::size_t c = 0; c < 3; ++c) power[by_supports] += state_.reactions[offset + c] * state_.velocity[dof + c];
+    for (std::size_t c = 0; c < 3; ++c)
+      power[by_supports] += state_.reactions[offset + c] * state_.velocity[dof + c];
   });
   for (std::size_t k = 0; k < interface_.nodes.size(); ++k) {
     const auto velocity = Vector3::Map(&state_.velocity[3 * interface_.nodes[k]]);
@@ -171,10 +178,12 @@ EnergyBalance ExplicitSolver::balance(double time, double next_step) {
   EnergyBalance balance;
   add_kinetic(balance);
   for (const auto& part : model_.parts)
-    balance.elastic.push_back(std::visit([&](const auto& batch) { return batch.energy(displacement); }, part.elements));
+    balance.elastic.push_back(
+        std::visit([&](const auto& batch) { return batch.energy(displacement); }, part.elements));
   if (model_.gravity) {
     for (Index node = 0; node < model_.nodes(); ++node)
-      balance.gravity -= model_.node_masses[node] * model_.gravity->dot(Vector3::Map(&displacement[3 * node]));
+      balance.gravity -=
+          model_.node_masses[node] * model_.gravity->dot(Vector3::Map(&displacement[3 * node]));
   }
   balance.bulk_damping += state_.damped + state_.works[by_stiffness_damping].done;
   balance.loads = state_.works[by_loads].done;
@@ -185,12 +194,13 @@ EnergyBalance ExplicitSolver::balance(double time, double next_step) {
 
 std::vector<double> ExplicitSolver::displacement_at_evaluation() const {
   std::vector<double> displacement = state_.displacement;
-  for (std::size_t i = 0; i < displacement.size(); ++i) displacement[i] -= state_.previous_step * state_.velocity[i];
+  for (std::size_t i = 0; i < displacement.size(); ++i)
+    displacement[i] -= state_.previous_step * state_.velocity[i];
   return displacement;
 }
 
-// The velocity half a step before the evaluation follows from the one behind it and the force, so no step has to store it. Before
-// the first step the stored velocity is that at the start, half a kick away from both.
+// The velocity half a step before the evaluation follows from the one behind it and the force, so no step has
+// to store it. Before the first step the stored velocity is that at the start, half a kick away from both.
 void ExplicitSolver::add_kinetic(EnergyBalance& balance) const {
   const double half_damping = 0.5 * model_.damping.mass * state_.kick;
   const bool at_start = state_.steps == 0;
@@ -205,7 +215,7 @@ void ExplicitSolver::add_kinetic(EnergyBalance& balance) const {
   }
   balance.kinetic = 0.5 * twice_kinetic;
   if (!at_start) balance.bulk_damping = -0.5 * model_.damping.mass * state_.previous_step * damped_behind;
-  }
+}
 
 void ExplicitSolver::report_blow_up(double time) const {
   const auto worst = std::ranges::max_element(state_.velocity, {}, [](double v) {

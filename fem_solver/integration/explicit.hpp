@@ -25,12 +25,14 @@ struct EnergyBalance {
 struct ExplicitState {
   std::vector<double> displacement;  ///< m; at the present time
   std::vector<double> velocity;      ///< m/s; half a step before the present time
-  std::vector<double> force;         ///< N; sum of all forces at the time of the last evaluation, zero where supported
-  std::vector<double> reactions;     ///< N; forces of the supports at that time, 3 a node of each support in turn
+  std::vector<double>
+      force;  ///< N; sum of all forces at the time of the last evaluation, zero where supported
+  std::vector<double>
+      reactions;  ///< N; forces of the supports at that time, 3 a node of each support in turn
   std::int64_t steps = 0;
-  double previous_step = 0;          ///< s; 0 before the first step
-  double kick = 0;                   ///< s; the last step's
-  double damped = 0;                 ///< J; by mass damping, the half step behind the last evaluation included
+  double previous_step = 0;  ///< s; 0 before the first step
+  double kick = 0;           ///< s; the last step's
+  double damped = 0;         ///< J; by mass damping, the half step behind the last evaluation included
   /// Work of a force at an evaluation belongs half to the step before it and half to the step after it.
   struct Work {
     double done = 0;     ///< J; up to the last evaluation
@@ -47,21 +49,25 @@ struct InterfaceForce {
   std::vector<double> force;  ///< N; 3 a node
 };
 
-/// Central differences with lumped masses, in leapfrog form (Belytschko, Liu, Moran, Nonlinear Finite Elements, section 6.2):
+/// Central differences with lumped masses, in leapfrog form (Belytschko, Liu, Moran, Nonlinear Finite
+/// Elements, section 6.2):
 ///
-///     v(n+1/2) = ((1 - a k/2) v(n-1/2) + k F(n)/m)/(1 + a k/2)      u(n+1) = u(n) + dt v(n+1/2)      k = (dt_before + dt)/2
+///     v(n+1/2) = ((1 - a k/2) v(n-1/2) + k F(n)/m)/(1 + a k/2)      u(n+1) = u(n) + dt v(n+1/2)      k =
+///     (dt_before + dt)/2
 ///
 /// | symbol | variable         | meaning                                                           | unit |
 /// |--------|------------------|-------------------------------------------------------------------|------|
 /// | v      | velocity         | nodal velocity, half a step before the displacement's time         | m/s  |
 /// | F      | force            | external forces minus dU/du minus b K v(n-1/2)                     | N    |
 /// | m      | node mass        |                                                                   | kg   |
-/// | a, b   | damping          | mass- and stiffness-proportional Rayleigh factors                  | 1/s, s |
-/// | k      | kick             | from the middle of the last step to the middle of this one; before the first step dt_before = 0, which is the half-step start | s |
+/// | a, b   | damping          | mass- and stiffness-proportional Rayleigh factors                  | 1/s, s
+/// | | k      | kick             | from the middle of the last step to the middle of this one; before the
+/// first step dt_before = 0, which is the half-step start | s |
 ///
-/// Mass damping is centred and costs no stability; stiffness damping lags by half a step and lowers the limit, see step_limit.hpp.
-/// Invariant of an undamped run: 1/2 v(n-1/2).m v(n+1/2) + U(u(n)) - work, exactly for linear elasticity and free of drift for all.
-/// Proven by: "a free oscillator keeps the leapfrog's own energy to round-off" (explicit_test.cpp).
+/// Mass damping is centred and costs no stability; stiffness damping lags by half a step and lowers the
+/// limit, see step_limit.hpp. Invariant of an undamped run: 1/2 v(n-1/2).m v(n+1/2) + U(u(n)) - work, exactly
+/// for linear elasticity and free of drift for all. Proven by: "a free oscillator keeps the leapfrog's own
+/// energy to round-off" (explicit_test.cpp).
 class ExplicitSolver {
  public:
   /// @pre every node has mass or is fully supported; model and assembly outlive the solver
@@ -75,7 +81,8 @@ class ExplicitSolver {
   const ExplicitState& state() const { return state_; }
   InterfaceForce& interface() { return interface_; }
 
-  /// The balance at the time of the last force evaluation. Before the first step: at the start, for a first step of `next_step`.
+  /// The balance at the time of the last force evaluation. Before the first step: at the start, for a first
+  /// step of `next_step`.
   EnergyBalance balance(double time, double next_step);
   /// Reported by a NumericalError; negative: none.
   double last_output_time = -1;
@@ -84,9 +91,11 @@ class ExplicitSolver {
   void evaluate_forces(double time) noexcept;
   void subtract_stiffness_damping() noexcept;
   void add_external_forces(double time) noexcept;
-  /// Replaces the force on supported directions by the one that leads to their prescribed position at the step's end.
+  /// Replaces the force on supported directions by the one that leads to their prescribed position at the
+  /// step's end.
   void impose_supports(double time, double step) noexcept;
-  /// Sum of mass times velocity squared, or what mass damping dissipates (J): finite as long as every velocity is.
+  /// Sum of mass times velocity squared, or what mass damping dissipates (J): finite as long as every
+  /// velocity is.
   template <class MassDamping>
   double advance_nodes(double step) noexcept;
   enum WorkLine : std::size_t { by_loads, by_supports, by_interface, by_stiffness_damping };

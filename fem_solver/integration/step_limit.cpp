@@ -8,6 +8,8 @@
 #include <limits>
 #include <random>
 
+#include "core/errors.hpp"
+
 namespace talus::fem {
 namespace {
 
@@ -35,12 +37,21 @@ Vector start_vector(const Vector& scale) {
   return q;
 }
 
-/// Largest eigenvalue of the tridiagonal matrix, plus the residual of its vector.
-double upper_eigenvalue(const std::vector<double>& diagonal, const std::vector<double>& beside, double next_beside) {
-  Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver;
+/// Largest eigenvalue of the tridiagonal matrix, plus the residual of its vector. Scaled to 1, because the
+/// eigenvalue iteration compares small entries with absolute thresholds.
+double upper_eigenvalue(const std::vector<double>& diagonal, const std::vector<double>& beside,
+                        double next_beside) {
   const auto n = static_cast<Eigen::Index>(diagonal.size());
-  solver.computeFromTridiagonal(Vector::Map(diagonal.data(), n), Vector::Map(beside.data(), n - 1));
-  return solver.eigenvalues()[n - 1] + std::abs(next_beside * solver.eigenvectors()(n - 1, n - 1));
+  const double scale = Vector::Map(diagonal.data(), n).cwiseAbs().maxCoeff();
+  if (scale == 0) return 0;
+  Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver;
+  solver.computeFromTridiagonal(Vector::Map(diagonal.data(), n) / scale,
+                                Vector::Map(beside.data(), n - 1) / scale);
+  if (solver.info() != Eigen::Success)
+    throw core::NumericalError({.what = "the highest frequency of the structure could not be computed",
+                                .entity = "number of Lanczos vectors",
+                                .value = static_cast<double>(n)});
+  return scale * solver.eigenvalues()[n - 1] + std::abs(next_beside * solver.eigenvectors()(n - 1, n - 1));
 }
 
 }  // namespace
@@ -61,8 +72,9 @@ double largest_frequency(Assembly& assembly, std::span<const double> displacemen
     diagonal.push_back(r.dot(q));
     r -= diagonal.back() * q;
     beta = r.norm();
-    const double largest = std::abs(*std::ranges::max_element(diagonal, {}, [](double d) { return std::abs(d); }));
-    if (diagonal.size() == most_products || beta <= 1e-12 * largest)
+    const double largest =
+        std::abs(*std::ranges::max_element(diagonal, {}, [](double d) { return std::abs(d); }));
+    if (diagonal.size() == most_products || beta <= 1e-10 * largest)
       return std::sqrt(std::max(0.0, upper_eigenvalue(diagonal, beside, beta)));
     beside.push_back(beta);
     before = q;
@@ -83,7 +95,8 @@ struct ElementBound {
   Index element = 0;
 };
 
-/// dt = L sqrt(rho/modulus), the time a wave takes along the shortest element: an element alone with its own lumped mass.
+/// dt = L sqrt(rho/modulus), the time a wave takes along the shortest element: an element alone with its own
+/// lumped mass.
 template <class Compression, class Modulus>
 ElementBound shortest_passage(const TwoNodeBatch<Compression>& batch, const Modulus& modulus) {
   ElementBound shortest;
@@ -97,8 +110,9 @@ ElementBound shortest_passage(const TwoNodeBatch<Compression>& batch, const Modu
 }
 
 template <class Compression>
-void add_part_bounds(const Part& part, const TwoNodeBatch<Compression>& batch, std::span<const double> displacement,
-                     const Damping& damping, std::vector<StepBound>& bounds) {
+void add_part_bounds(const Part& part, const TwoNodeBatch<Compression>& batch,
+                     std::span<const double> displacement, const Damping& damping,
+                     std::vector<StepBound>& bounds) {
   const auto add = [&](const char* name, const char* formula, const ElementBound& bound) {
     if (!std::isfinite(bound.seconds)) return;
     bounds.push_back({fmt::format("{} {}", name, part.name), stable_step(2 / bound.seconds, damping),
@@ -118,10 +132,12 @@ std::vector<StepBound> step_bounds(Assembly& assembly, std::span<const double> d
   std::vector<StepBound> bounds;
   const double frequency = largest_frequency(assembly, displacement);
   if (frequency > 0)
-    bounds.push_back({"highest frequency of the structure", stable_step(frequency, model.damping),
-                      fmt::format("(2/w)(sqrt(1 + xi^2) - xi) with w = {:.6g} 1/s, xi = {:.3g}, from the tangent stiffness "
-                                  "with its geometric part",
-                                  frequency, 0.5 * model.damping.stiffness * frequency)});
+    bounds.push_back(
+        {"highest frequency of the structure", stable_step(frequency, model.damping),
+         fmt::format(
+             "(2/w)(sqrt(1 + xi^2) - xi) with w = {:.6g} 1/s, xi = {:.3g}, from the tangent stiffness "
+             "with its geometric part",
+             frequency, 0.5 * model.damping.stiffness * frequency)});
   for (const auto& part : model.parts)
     std::visit([&](const auto& batch) { add_part_bounds(part, batch, displacement, model.damping, bounds); },
                part.elements);

@@ -10,26 +10,27 @@ namespace talus::fem {
 
 /// A bound on the explicit step, with what sets it.
 struct StepBound {
-  std::string name;    ///< "structure: wave along net"
+  std::string name;  ///< "structure: wave along net"
   double seconds = 0;
   std::string reason;  ///< formula and values
 };
 
-/// Largest angular frequency of M^-1 K at a state, K the tangent with its geometric part, supported directions left out.
-/// Lanczos iteration on M^-1/2 K M^-1/2 (Parlett, The Symmetric Eigenvalue Problem, chapter 13) from a fixed start vector: unlike
-/// plain power iteration it also separates the crowded upper end of a net's spectrum within a few dozen products, and its residual
-/// bounds the error.
+/// Largest angular frequency of M^-1 K at a state, K the tangent with its geometric part, supported
+/// directions left out. Lanczos iteration on M^-1/2 K M^-1/2 (Parlett, The Symmetric Eigenvalue Problem,
+/// chapter 13) from a fixed start vector: unlike plain power iteration it also separates the crowded upper
+/// end of a net's spectrum within a few dozen products, and its residual bounds the error.
 /// @returns 1/s; the estimate plus its residual bound. 0 where nothing is stiff.
 double largest_frequency(Assembly& assembly, std::span<const double> displacement);
 
-/// dt = (2/w)(sqrt(1 + xi^2) - xi), xi = b w/2: stability of central differences with stiffness damping b that lags half a step.
-/// From the characteristic polynomial at z = -1: w^2 dt^2 + 2 b w^2 dt = 4. Centred mass damping drops out of it.
-/// Proven by: "a free oscillator is stable just below the limit and blows up just above it" (step_limit_test.cpp).
+/// dt = (2/w)(sqrt(1 + xi^2) - xi), xi = b w/2: stability of central differences with stiffness damping b
+/// that lags half a step. From the characteristic polynomial at z = -1: w^2 dt^2 + 2 b w^2 dt = 4. Centred
+/// mass damping drops out of it. Proven by: "a free oscillator is stable just below the limit and blows up
+/// just above it" (step_limit_test.cpp).
 /// @param frequency w, 1/s. @param damping its stiffness factor b (s) is used. @returns s; infinity for w = 0
 double stable_step(double frequency, const Damping& damping);
 
-/// The bounds at a state, the tightest first: that of the whole structure, and for each part of bars or cables the closed forms
-/// for waves along and across it.
+/// The bounds at a state, the tightest first: that of the whole structure, and for each part of bars or
+/// cables the closed forms for waves along and across it.
 std::vector<StepBound> step_bounds(Assembly& assembly, std::span<const double> displacement);
 
 }  // namespace talus::fem

@@ -14,10 +14,9 @@ namespace talus::fem {
 
 /// The elements of one part. Every alternative offers, with `displacement` 3 a node (m):
 ///   size(), slots()                       elements, and force vectors they write
-///   for_each_incidence(visit)             visit(node, slot, sign): which slots sum up to a node's force, in a fixed order
-///   internal_force(u, slots, range)       dU/du of the elements of a range (N); noexcept, no allocation
-///   stiffness_product(u, w, slots, range) (d2U/du2) w
-///   stiffness(u, sink)                    d2U/du2 as 3x3 blocks
+///   for_each_incidence(visit)             visit(node, slot, sign): which slots sum up to a node's force, in
+///   a fixed order internal_force(u, slots, range)       dU/du of the elements of a range (N); noexcept, no
+///   allocation stiffness_product(u, w, slots, range) (d2U/du2) w stiffness(u, sink) d2U/du2 as 3x3 blocks
 ///   energy(u)                             U (J), zero at the reference state
 ///   add_mass(node_masses)                 lumped (kg)
 using ElementBatch = std::variant<BarBatch, CableBatch>;

@@ -25,8 +25,9 @@ void TwoNodeBatch<Compression>::internal_force(std::span<const double> displacem
 }
 
 template <class Compression>
-void TwoNodeBatch<Compression>::stiffness_product(std::span<const double> displacement, std::span<const double> direction,
-                                                  std::span<double> slots, Range range) const noexcept {
+void TwoNodeBatch<Compression>::stiffness_product(std::span<const double> displacement,
+                                                  std::span<const double> direction, std::span<double> slots,
+                                                  Range range) const noexcept {
   for (Index e = range.begin; e < range.end; ++e)
     Vector3::Map(&slots[3 * at(e)]) =
         element(e).stiffness_product(difference(displacement, e), difference(direction, e));

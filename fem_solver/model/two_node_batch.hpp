@@ -15,14 +15,16 @@ struct AxialPart {
   double density = 0;  ///< kg/m^3
 };
 
-/// All two-node elements of a part, as arrays. One force slot an element: the far node's force, which the near one feels negated.
+/// All two-node elements of a part, as arrays. One force slot an element: the far node's force, which the
+/// near one feels negated.
 /// @see ElementBatch for the meaning of the members.
 template <class Compression>
 class TwoNodeBatch {
  public:
   /// @param reference node positions, 3 a node (m)
   /// @pre every segment joins two nodes at different places
-  TwoNodeBatch(const AxialPart& part, std::vector<std::array<Index, 2>> segments, std::span<const double> reference);
+  TwoNodeBatch(const AxialPart& part, std::vector<std::array<Index, 2>> segments,
+               std::span<const double> reference);
 
   Index size() const { return static_cast<Index>(segments_.size()); }
   Index slots() const { return size(); }
@@ -36,9 +38,10 @@ class TwoNodeBatch {
     }
   }
 
-  void internal_force(std::span<const double> displacement, std::span<double> slots, Range range) const noexcept;
-  void stiffness_product(std::span<const double> displacement, std::span<const double> direction, std::span<double> slots,
-                         Range range) const noexcept;
+  void internal_force(std::span<const double> displacement, std::span<double> slots,
+                      Range range) const noexcept;
+  void stiffness_product(std::span<const double> displacement, std::span<const double> direction,
+                         std::span<double> slots, Range range) const noexcept;
   double energy(std::span<const double> displacement) const noexcept;
   void add_mass(std::span<double> node_masses) const noexcept;
 
