@@ -53,10 +53,10 @@ class UsageError : public std::logic_error {
 class TransportError : public std::runtime_error {
  public:
   struct Details {
-    std::string peer;          ///< "structure (fem_solver, pid 1234)"
-    std::string waited_for;    ///< "the answer to 'advance'"
-    std::int64_t window = -1;  ///< the window in progress; -1 before the first
-    std::string reason;        ///< "was killed by signal 9 (SIGKILL)"
+    std::string peer;                    ///< "structure (fem_solver, pid 1234)"
+    std::string waited_for;              ///< "the answer to 'advance'"
+    std::int64_t window = -1;            ///< the window in progress; -1 before the first
+    std::string reason;                  ///< "was killed by signal 9 (SIGKILL)"
     std::string waiter = "the coupler";  ///< who waited
   };
   explicit TransportError(Details details);

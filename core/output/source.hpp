@@ -5,12 +5,17 @@
 #include <string>
 #include <vector>
 
-/// What a solver offers for output, in a form that can be written by the solver itself (standalone) or by the coupler process
-/// (coupled, through shared memory). Descriptions are fixed before time 0; values are pulled at output times only.
+/// What a solver offers for output, in a form that can be written by the solver itself (standalone) or by the
+/// coupler process (coupled, through shared memory). Descriptions are fixed before time 0; values are pulled
+/// at output times only.
 namespace talus::core {
 
 enum class FieldLocation : std::uint8_t { node, cell };
-enum class CellKind : std::uint8_t { vertex = 1, segment = 2, triangle = 3 };  ///< the value is the number of nodes of a cell
+enum class CellKind : std::uint8_t {
+  vertex = 1,
+  segment = 2,
+  triangle = 3
+};  ///< the value is the number of nodes of a cell
 
 struct FieldDescription {
   std::string name;  ///< "displacement"
@@ -19,8 +24,8 @@ struct FieldDescription {
   FieldLocation location = FieldLocation::node;
 };
 
-/// A set of cells of one kind that is drawn together: `net`, `membrane`, `boundary`, `rocks`. Its node positions are written every
-/// frame as the field "position", which each group has without naming it.
+/// A set of cells of one kind that is drawn together: `net`, `membrane`, `boundary`, `rocks`. Its node
+/// positions are written every frame as the field "position", which each group has without naming it.
 struct GroupDescription {
   std::string name;
   CellKind kind = CellKind::vertex;

@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
-#include <fstream>
 #include <variant>
 
+#include "tests/support/folder.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace talus {
@@ -30,20 +30,9 @@ void describe(core::Fields& fields, Coupling& coupling) {
   fields.with_default("times", coupling.times, {.unit = "s", .help = "times"});
 }
 
-/// A folder of scenes that is removed at the end.
-class Folder {
+class Folder : public test::Folder {
  public:
-  Folder() { std::filesystem::create_directories(path_); }
-  ~Folder() { std::filesystem::remove_all(path_); }
-  Folder& add(const std::string& name, const std::string& text) {
-    std::filesystem::create_directories((path_ / name).parent_path());
-    std::ofstream(path_ / name) << text;
-    return *this;
-  }
-  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-
- private:
-  std::filesystem::path path_ = std::filesystem::temp_directory_path() / "talus_scene_overlay_test";
+  Folder() : test::Folder("scene_overlay") {}
 };
 
 Coupling read(const core::SceneFile& file) {

@@ -1,6 +1,6 @@
 #include <catch2/catch.hpp>
-#include <fstream>
 
+#include "tests/support/folder.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace talus {
@@ -121,17 +121,15 @@ TEST_CASE("an absent key keeps its default, and an absent optional value stays a
 }
 
 TEST_CASE("a file named in a scene is found from the folder of the scene that names it, and must exist") {
-  const auto folder = std::filesystem::temp_directory_path() / "talus_scene_values_test";
-  std::filesystem::create_directories(folder / "parts");
-  std::ofstream(folder / "parts" / "rock.stl") << "solid\n";
-  std::ofstream(folder / "parts" / "base.yaml") << "section: {mesh: rock.stl}\n";
-  std::ofstream(folder / "scene.yaml") << "extends: parts/base.yaml\n";
+  test::Folder folder("scene_values");
+  folder.add("parts/rock.stl", "solid\n")
+      .add("parts/base.yaml", "section: {mesh: rock.stl}\n")
+      .add("scene.yaml", "extends: parts/base.yaml\n");
   const auto file = core::SceneFile::load(folder / "scene.yaml");
   core::SceneReader reader(file, {"section"});
-  CHECK(reader.required<Values>("section").mesh == folder / "parts" / "rock.stl");
+  CHECK(reader.required<Values>("section").mesh == folder / "parts/rock.stl");
   CHECK_NOTHROW(reader.finish());
   CHECK(error("mesh: nothing.stl") == "scene.yaml:1:17: section.mesh: no such file: 'nothing.stl'");
-  std::filesystem::remove_all(folder);
 }
 
 }  // namespace talus

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/output/file.hpp"
+#include "core/output/source.hpp"
+
+namespace talus::core {
+
+/// fields.h5: the frames of every group's positions and fields.
+///
+///     /time            [frames]                 s
+///     /frames_written  [1]                      frames that are complete; the others hold zeros
+///     /<group>/cells   [cells, nodes a cell]    node indices
+///     /<group>/position, /<group>/<field>       [frames, nodes or cells, components]
+///
+/// The HDF5 library writes the file's structure once, before the first frame, and closes it. Frames are then
+/// plain writes into the places reserved for them, so that a kill at any moment leaves a file that opens.
+/// Frames not yet written take no disk space.
+class FieldStore {
+ public:
+  /// @pre group names differ; a group without nodes is left out
+  FieldStore(const std::filesystem::path& path, const std::vector<GroupDescription>& groups,
+             std::int64_t frame_capacity);
+
+  /// Where a dataset of `group` lies; `field` -1 is the position.
+  struct Slot {
+    std::size_t group = 0;
+    std::int64_t field = -1;
+  };
+  /// Writes one dataset of the frame in progress. @pre values has its rows x components
+  void write(const Slot& slot, std::span<const double> values);
+  /// Closes the frame in progress, which counts from here on. @throws UsageError where the capacity is used
+  /// up
+  void end_frame(double time);
+  std::int64_t frames_written() const { return frames_written_; }
+  std::int64_t capacity() const { return capacity_; }
+
+ private:
+  /// Places in the file, in bytes.
+  struct Layout {
+    std::uint64_t time = 0, count = 0;
+    std::vector<std::vector<std::uint64_t>>
+        groups;  ///< of each group's position and fields; none for a group left out
+  };
+  static Layout reserve_all(const std::filesystem::path& path, const std::vector<GroupDescription>& groups,
+                            std::int64_t frames);
+  void write_numbers(std::uint64_t offset, std::span<const double> values);
+
+  std::int64_t capacity_ = 0;
+  std::int64_t frames_written_ = 0;
+  Layout layout_;
+  OutputFile file_;
+};
+
+}  // namespace talus::core

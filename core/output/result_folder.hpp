@@ -1,0 +1,32 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace talus::core {
+
+/// A folder that holds one result and belongs to one run as long as the run lives.
+class ResultFolder {
+ public:
+  enum class Existing { refuse, replace };
+
+  /// Makes the folder. `replace` removes the files of an earlier result and leaves all others alone.
+  /// @throws ConfigError where something is there already (and may not be replaced), is no folder, or another
+  /// run writes to it.
+  ResultFolder(const std::filesystem::path& path, Existing existing);
+  ~ResultFolder();
+  ResultFolder(const ResultFolder&) = delete;
+  ResultFolder& operator=(const ResultFolder&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+
+  /// The names of the files a result may consist of.
+  static const std::vector<std::string>& file_names();
+
+ private:
+  std::filesystem::path path_;
+  int lock_ = -1;
+};
+
+}  // namespace talus::core

@@ -1,0 +1,86 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+/// Loops over many equal items on several threads, with results that are the same bits for any number of
+/// threads.
+///
+/// Each item writes its own place only, so the order of items cannot matter. A sum is taken over blocks whose
+/// length does not depend on the number of threads, then over the blocks in their order.
+///
+/// Processes that share cores should run with OMP_WAIT_POLICY=passive, so that waiting threads sleep; the
+/// launcher of solvers sets it.
+namespace talus::core {
+
+/// Threads of the loops below, 1 until set. Not to be called inside of a loop.
+void set_thread_count(int count);
+int thread_count() noexcept;
+
+/// A range of items [begin, end).
+struct Block {
+  std::int64_t begin = 0;
+  std::int64_t end = 0;
+};
+
+/// Items of a block; long enough to hide the cost of handing it out, short enough to share a few thousand
+/// items fairly.
+inline constexpr std::int64_t default_block_length = 512;
+
+inline std::int64_t block_count(std::int64_t items,
+                                std::int64_t block_length = default_block_length) noexcept {
+  return (items + block_length - 1) / block_length;
+}
+inline Block block_at(std::int64_t index, std::int64_t items,
+                      std::int64_t block_length = default_block_length) noexcept {
+  return {index * block_length, std::min(items, (index + 1) * block_length)};
+}
+
+/// Calls body(Block, block index) for every block of `items`. Blocks are dealt in order, one run of
+/// neighbours to each thread, so that a thread keeps meeting the same memory. @pre body is noexcept in
+/// effect: an exception that leaves it ends the program
+template <class Body>
+void parallel_blocks(std::int64_t items, Body&& body, std::int64_t block_length = default_block_length) {
+  const std::int64_t blocks = block_count(items, block_length);
+  if (thread_count() == 1 || blocks <= 1) {
+    for (std::int64_t i = 0; i < blocks; ++i) body(block_at(i, items, block_length), i);
+    return;
+  }
+#pragma omp parallel for schedule(static) num_threads(thread_count())
+  for (std::int64_t i = 0; i < blocks; ++i) body(block_at(i, items, block_length), i);
+}
+
+/// Calls body(item) for every item.
+template <class Body>
+void parallel_for(std::int64_t items, Body&& body) {
+  parallel_blocks(items, [&](Block block, std::int64_t) {
+    for (std::int64_t i = block.begin; i < block.end; ++i) body(i);
+  });
+}
+
+/// The sum of term(item), the same bits for any number of threads. Keeps its memory between sums; reserve()
+/// before a loop that must not allocate.
+template <class Value = double>
+class OrderedSum {
+ public:
+  void reserve(std::int64_t items) { partial_.resize(static_cast<std::size_t>(block_count(items))); }
+
+  template <class Term>
+  Value operator()(std::int64_t items, Value zero, Term&& term) {
+    reserve(items);
+    parallel_blocks(items, [&](Block block, std::int64_t index) {
+      Value sum = zero;
+      for (std::int64_t i = block.begin; i < block.end; ++i) sum += term(i);
+      partial_[static_cast<std::size_t>(index)] = sum;
+    });
+    Value total = zero;
+    for (const Value& sum : partial_) total += sum;
+    return total;
+  }
+
+ private:
+  std::vector<Value> partial_;
+};
+
+}  // namespace talus::core

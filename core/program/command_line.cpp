@@ -1,0 +1,93 @@
+#include "core/program/command_line.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+
+#include "core/parallel.hpp"
+#include "core/program/log.hpp"
+#include "core/program/stop.hpp"
+
+namespace talus::core {
+
+std::string version() {
+  return TALUS_VERSION;
+}
+
+std::filesystem::path RunOptions::folder_for(const std::filesystem::path& scene) const {
+  return out.empty() ? std::filesystem::path("results") / scene.stem() : out;
+}
+
+void add_run_options(CLI::App& app, RunOptions& options) {
+  app.add_option("--out", options.out, "folder of the result (default: results/<name of the scene>)");
+  app.add_flag_callback(
+      "--overwrite", [&] { options.existing = ResultFolder::Existing::replace; },
+      "replace an earlier result");
+  app.add_option("--threads", options.threads, "threads of each solver; results do not depend on it")
+      ->check(CLI::Range(1, 1024));
+  auto* quiet = app.add_flag_callback(
+      "--quiet", [&] { options.progress = ProgressStyle::quiet; }, "show warnings and errors only");
+  app.add_flag_callback(
+         "--json", [&] { options.progress = ProgressStyle::json; }, "show progress as one JSON object a line")
+      ->excludes(quiet);
+}
+
+void apply(const RunOptions& options) {
+  set_thread_count(options.threads);
+  const bool silent = options.progress == ProgressStyle::quiet || options.progress == ProgressStyle::json;
+  show_log_from(silent ? LogLevel::warning : LogLevel::info);
+}
+
+int run_main(const std::string& program, const std::function<ExitCode()>& body) noexcept {
+  const auto code = [](ExitCode c) { return static_cast<int>(c); };
+  try {
+    return code(body());
+  } catch (const ConfigError& error) {
+    for (const auto& complaint : error.complaints()) log_error(complaint.text());
+    return code(ExitCode::config);
+  } catch (const std::exception& error) {
+    const ExitCode which = exit_code(error);
+    log_error(which == ExitCode::bug ? fmt::format("{} ends: {}", program, error.what()) : error.what());
+    return code(which);
+  } catch (...) {
+    std::fprintf(stderr, "error: %s ends with an exception of no known kind\n", program.c_str());
+    return code(ExitCode::bug);
+  }
+}
+
+int run_main(CLI::App& app, int argc, const char* const* argv,
+             const std::function<ExitCode()>& body) noexcept {
+  return run_main(app.get_name(), [&] {
+    app.set_version_flag("--version", app.get_name() + " " + version());
+    try {
+      app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+      return app.exit(error) == 0 ? ExitCode::success : ExitCode::config;
+    }
+    return body();
+  });
+}
+
+int solver_main(int argc, const char* const* argv, const SolverProgram& program) noexcept {
+  CLI::App app(program.purpose, program.name);
+  app.footer("Example:\n  " + program.example);
+  SolverCommand command;
+  bool schema = false;
+  auto* scene = app.add_option("SCENE", command.scene, "the scene, a YAML file");
+  add_run_options(app, command.run);
+  app.add_option("--join", command.join, "take part in the coupled run of this shared-memory segment");
+  app.add_flag("--schema", schema, "print the keys of a scene that this program reads, as Markdown");
+  return run_main(app, argc, argv, [&] {
+    if (schema) {
+      fmt::print("{}", program.schema());
+      return ExitCode::success;
+    }
+    if (scene->empty()) throw ConfigError("a scene is needed, for example:  " + program.example);
+    apply(command.run);
+    command.join.empty() ? watch_stop_signals() : ignore_interrupts();
+    return program.run(command);
+  });
+}
+
+}  // namespace talus::core

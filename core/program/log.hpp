@@ -1,0 +1,32 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+/// Messages of a program: to the standard error stream, and to log.txt once a result folder is there. Safe to
+/// call from several threads.
+namespace talus::core {
+
+enum class LogLevel { debug, info, warning, error };
+
+/// What is shown on the standard error stream from here on; log.txt gets everything from `info` up.
+void show_log_from(LogLevel level);
+/// Opens log.txt. Messages from before are written to it first. @throws std::runtime_error where it cannot be
+/// written
+void open_log_file(const std::filesystem::path& path);
+void log(LogLevel level, const std::string& message);
+
+inline void log_debug(const std::string& message) {
+  log(LogLevel::debug, message);
+}
+inline void log_info(const std::string& message) {
+  log(LogLevel::info, message);
+}
+inline void log_warning(const std::string& message) {
+  log(LogLevel::warning, message);
+}
+inline void log_error(const std::string& message) {
+  log(LogLevel::error, message);
+}
+
+}  // namespace talus::core
