@@ -1,4 +1,4 @@
-#include "python/talus/native/errors.hpp"
+#include "python/talus_participant/native/errors.hpp"
 
 #include <stdexcept>
 #include <string>
