@@ -1,0 +1,132 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "fem_solver/elements/rope_friction.hpp"
+#include "fem_solver/elements/rope_segments.hpp"
+
+namespace talus::fem {
+
+/// A rope that runs over its inner nodes with friction. Source: [P, after eq. 4], capstan limit by material
+/// lengths (rope_friction.hpp). The same sums as SlidingCable, with each segment's own tension:
+///
+///     N_i = N(l_i/M_i)     f_k = N_(k-1) t_(k-1) - N_k t_k     U = sum M_i u(l_i/M_i)
+///
+/// The material M is the history: settle() moves it from what the step began with to what the present
+/// positions ask for, and the force follows from it. Friction makes the derivative of that force,
+/// `stiffness`, unsymmetric. With the material held (nothing slips) the rope is as stiff as it can be, and
+/// its stiffness symmetric: `held_stiffness_product`, for step limits. Proven by (elements_friction.cpp):
+/// "the stiffness of a frictional cable is the derivative of its settled force".
+class FrictionalCable {
+ public:
+  struct Properties {
+    RopeLaw law;
+    double friction = 0;  ///< mu of the capstan equation, > 0
+    double gap = 0;       ///< m
+  };
+  FrictionalCable(const Properties& properties, std::size_t segments)
+      : properties_(properties), friction_(segments), lengths_(segments), grips_(segments - 1) {}
+
+  /// Finds `material` for the current chords from the material at the step's start (m).
+  /// @return false where it did not converge
+  template <class Chords>
+  bool settle(const Chords& chords, std::span<const double> old_material,
+              std::span<double> material) noexcept {
+    measure(chords);
+    return friction_.settle(properties_.law, {lengths_, grips_}, old_material, material);
+  }
+  /// Of the last settle(): unstretched length that passed each inner node towards the next segment (m).
+  std::span<const double> slips() const noexcept { return friction_.slips(); }
+
+  template <class Chords>
+  double energy(const Chords& chords, std::span<const double> material) const noexcept {
+    double sum = 0;
+    for (std::size_t i = 0; i < chords.size(); ++i)
+      sum += material[i] * properties_.law.energy_per_length(length(chords(i)) / material[i]);
+    return sum;
+  }
+  double tension(const Vector3& chord, double material) const noexcept {
+    return properties_.law.tension(length(chord) / material);
+  }
+
+  /// sink(i, force): what segment i pulls its farther node back with. N.
+  template <class Chords, class Sink>
+  void segment_forces(const Chords& chords, std::span<const double> material,
+                      const Sink& sink) const noexcept {
+    for (std::size_t i = 0; i < chords.size(); ++i) {
+      const RopeSegment segment(chords(i), properties_.gap);
+      sink(i, Vector3(properties_.law.tension(segment.length / material[i]) * segment.direction));
+    }
+  }
+
+  /// The change of segment_forces along a change of the chords with the material held.
+  template <class Chords, class ChordChanges, class Sink>
+  void held_stiffness_product(const Chords& chords, const ChordChanges& changes,
+                              std::span<const double> material, const Sink& sink) const noexcept {
+    for (std::size_t i = 0; i < chords.size(); ++i) {
+      const RopeSegment segment(chords(i), properties_.gap);
+      const Vector3 change = changes(i);
+      const double q = segment.length / material[i];
+      const double N_change = properties_.law.tension_slope(q) / material[i] * segment.direction.dot(change);
+      sink(i, Vector3(N_change * segment.direction +
+                      properties_.law.tension(q) * segment.curvature_product(change)));
+    }
+  }
+
+  /// sink(i, j, block): derivative of segment i's settled force with respect to chord j. Every pair once;
+  /// allocates.
+  /// @pre the last settle() was at these chords and gave this material
+  template <class Chords, class Sink>
+  void stiffness(const Chords& chords, std::span<const double> material, const Sink& sink) {
+    const std::size_t m = chords.size();
+    measure(chords);
+    std::vector<double> length_changes(m), grip_changes(m - 1), tension_changes(m);
+    for (std::size_t j = 0; j < m; ++j) {
+      std::vector<Matrix3> blocks(m, Matrix3::Zero());
+      for (int axis = 0; axis < 3; ++axis) {
+        length_changes.assign(m, 0.0);
+        grip_changes.assign(m - 1, 0.0);
+        length_changes[j] = RopeSegment(chords(j), properties_.gap).direction[axis];
+        if (j > 0)
+          grip_changes[j - 1] =
+              grips_[j - 1] * properties_.friction * wrap_slope(chords(j), chords(j - 1))[axis];
+        if (j + 1 < m)
+          grip_changes[j] = grips_[j] * properties_.friction * wrap_slope(chords(j), chords(j + 1))[axis];
+        friction_.tension_changes(properties_.law, {lengths_, grips_}, material,
+                                  {length_changes, grip_changes}, tension_changes);
+        for (std::size_t i = 0; i < m; ++i)
+          blocks[i].col(axis) = tension_changes[i] * RopeSegment(chords(i), properties_.gap).direction;
+      }
+      blocks[j] += tension(chords(j), material[j]) * RopeSegment(chords(j), properties_.gap).curvature();
+      for (std::size_t i = 0; i < m; ++i) sink(i, j, blocks[i]);
+    }
+  }
+
+ private:
+  double length(const Vector3& chord) const noexcept { return RopeSegment(chord, properties_.gap).length; }
+
+  template <class Chords>
+  void measure(const Chords& chords) noexcept {
+    for (std::size_t i = 0; i < chords.size(); ++i) lengths_[i] = length(chords(i));
+    for (std::size_t k = 0; k + 1 < chords.size(); ++k)
+      grips_[k] = std::exp(properties_.friction * wrap_angle(chords(k), chords(k + 1)));
+  }
+  /// Angle between two chords, 0 to pi; exact for small angles too.
+  static double wrap_angle(const Vector3& near, const Vector3& far) noexcept {
+    return std::atan2(near.cross(far).norm(), near.dot(far));
+  }
+  /// Derivative of the wrap angle with respect to `chord`; zero for a straight rope, where the angle has a
+  /// kink.
+  static Vector3 wrap_slope(const Vector3& chord, const Vector3& other) noexcept {
+    const double r2 = chord.squaredNorm(), sine = chord.cross(other).norm();
+    if (!(sine > 1e-9 * std::sqrt(r2) * other.norm())) return Vector3::Zero();
+    return -(other - chord * (chord.dot(other) / r2)) / sine;
+  }
+
+  Properties properties_;
+  RopeFriction friction_;
+  std::vector<double> lengths_, grips_;  ///< m, 1; of the last measure()
+};
+
+}  // namespace talus::fem
