@@ -64,6 +64,8 @@ struct Effect {
 struct Declaration {
   std::string program;  ///< "fem_solver 0.1.0"
   double step = 0;      ///< s; its own step inside a window; 0: one step a window, whatever its length
+  bool insists_on_step =
+      false;  ///< the scene allows a step above a stability limit; else the coupler refuses it before time 0
   std::vector<StepLimit> limits;
   std::vector<Effect> effects;
   core::OutputDescription outputs;

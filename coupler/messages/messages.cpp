@@ -174,6 +174,7 @@ Bytes encode(const Declaration& declaration) {
   }
   return cbor({{"program", declaration.program},
                {"step", declaration.step},
+               {"insists_on_step", declaration.insists_on_step},
                {"limits", limits},
                {"effects", effects},
                {"outputs", to_json(declaration.outputs)}});
@@ -184,6 +185,7 @@ Declaration decode_declaration(ByteView bytes) {
     const json j = parse(bytes);
     Declaration declaration{.program = j.at("program"),
                             .step = j.at("step"),
+                            .insists_on_step = j.at("insists_on_step"),
                             .limits = {},
                             .effects = {},
                             .outputs = outputs_from(j.at("outputs"))};

@@ -1,21 +1,13 @@
 #pragma once
 
-#include <optional>
-#include <vector>
-
-#include "core/scene/fields.hpp"
-#include "interface_mesh/net.hpp"
+#include "interface_mesh/scene/panel.hpp"
 
 namespace talus::mesh {
 
-/// `square_net:` a rectangular net, `corner` plus `size[0]` along the first direction and `size[1]` along the
-/// second.
+/// `square_net:` a net of square openings.
 struct SquareNetScene {
-  core::Vector3 corner = core::Vector3::Zero();  ///< m
-  std::vector<double> size;                      ///< m; two
-  double pitch = 0;                              ///< m; between neighbouring wires
-  core::Vector3 along = core::Vector3::UnitX();
-  core::Vector3 across = core::Vector3::UnitY();
+  PanelScene panel;
+  double pitch = 0;          ///< m; between neighbouring wires
   double wire_diameter = 0;  ///< m
 };
 void describe(core::Fields& fields, SquareNetScene& net);

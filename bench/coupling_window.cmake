@@ -1,0 +1,1 @@
+talus_program(bench_coupling_window SOURCES coupling_window.cpp LINK talus_coupler fmt::fmt Threads::Threads)

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/errors.hpp"
+#include "core/scene/reader.hpp"
+#include "core/scene/sections.hpp"
+#include "coupler/scene/coupling_scene.hpp"
+#include "coupler/scene/interface_scene.hpp"
+
+namespace talus::coupler {
+
+/// The program of one side of a scene.
+struct SolverScene {
+  std::optional<std::string> solver;  ///< absent: Talus's own
+};
+
+/// A scene as the coupler sees it. The sections `structure` and `particles` belong to the solvers; only their
+/// key `solver` is read here.
+struct CoupledScene {
+  core::TimeScene time;
+  core::OutputScene output;
+  CouplingScene coupling;
+  std::optional<InterfaceScene> interface;
+  std::optional<SolverScene> structure, particles;
+
+  double window() const { return coupling.window.value_or(time.step.value_or(0)); }
+};
+
+/// Reads everything the coupler needs. Complaints are returned, not thrown: those of the solvers are to come
+/// with them.
+CoupledScene read_coupled_scene(const core::SceneFile& file, std::vector<core::Complaint>& complaints);
+
+}  // namespace talus::coupler

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/scene/fields.hpp"
+#include "coupler/session/introduction.hpp"
+#include "interface_mesh/scene/square_net.hpp"
+
+/// `interface:` which parts of the structure the particles can touch, what they touch there, and how the two
+/// are tied.
+namespace talus::coupler {
+
+/// Ω_D is the surface of Ω_S itself.
+struct SameAsStructure {
+  double wire_radius = 0;  ///< m; 0: the axes are touched
+  std::string material;
+};
+void describe(core::Fields& fields, SameAsStructure& boundary);
+
+/// Ω_D is a net of its own, with its real openings and wires.
+struct SquareNetBoundary {
+  mesh::SquareNetScene net;
+  std::string material;
+};
+void describe(core::Fields& fields, SquareNetBoundary& boundary);
+
+using BoundaryChoice = std::variant<SameAsStructure, SquareNetBoundary>;
+struct BoundaryScene {
+  BoundaryChoice kind;
+};
+void describe(core::Fields& fields, BoundaryScene& boundary);
+
+/// Linear weights on the nearest triangle or segment of Ω_S.
+struct NearestFeature {
+  std::optional<double> tolerance;  ///< m
+};
+void describe(core::Fields& fields, NearestFeature& mapping);
+
+/// The nearest node of Ω_S alone.
+struct NearestNeighbour {
+  std::optional<double> tolerance;  ///< m
+};
+void describe(core::Fields& fields, NearestNeighbour& mapping);
+
+struct MappingScene {
+  std::variant<NearestFeature, NearestNeighbour> kind;
+};
+void describe(core::Fields& fields, MappingScene& mapping);
+
+struct InterfaceScene {
+  std::vector<std::string> structure;  ///< names of parts
+  BoundaryScene boundary;
+  std::optional<MappingScene> mapping;  ///< absent: nearest_feature
+};
+void describe(core::Fields& fields, InterfaceScene& interface);
+
+InterfacePlan plan_of(const InterfaceScene& interface);
+
+}  // namespace talus::coupler

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "dem_solver/boundary/closest_point.hpp"
+#include "interface_mesh/surface.hpp"
+
+namespace talus::dem {
+
+/// A segment or triangle of the boundary.
+struct Feature {
+  std::array<Index, 3> nodes{-1, -1, -1};  ///< the third is -1 for a segment
+  double wire_radius = 0;                  ///< m; 0 for triangles
+  Index material = 0;
+  Index part = 0;
+
+  bool is_segment() const noexcept { return nodes[2] < 0; }
+};
+
+/// The boundary Ω_D of all rigid surfaces: nodes that move as they are told, and collect the reactions of the
+/// contacts.
+class Boundary {
+ public:
+  Boundary() = default;
+  /// @param material_of_part index of each part's contact material.
+  Boundary(const mesh::Surface& surface, std::span<const Index> material_of_part);
+
+  bool empty() const noexcept { return features_.empty(); }
+  std::span<const Feature> features() const noexcept { return features_; }
+  Index node_count() const noexcept { return static_cast<Index>(position_.size()); }
+  const std::vector<std::string>& part_names() const noexcept { return part_names_; }
+
+  /// Current node positions (m) and velocities (m/s), and the reactions of the last evaluation (N).
+  std::span<const Row> position() const noexcept { return position_; }
+  std::span<const Row> velocity() const noexcept { return velocity_; }
+  std::span<const Row> reaction() const noexcept { return reaction_; }
+
+  /// Displacement from the reference state and velocity of all nodes at a fraction between two states, linear
+  /// in between; 3 a node.
+  struct Motion {
+    std::span<const double> start_displacement, start_velocity, end_displacement, end_velocity;
+  };
+  void move(const Motion& motion, double fraction) noexcept;
+  /// Prescribed motion: every node of a part keeps a velocity; positions follow from the time since the
+  /// reference state.
+  void set_velocity(Index part, const Triple<double>& velocity) noexcept;
+  void drift(double time) noexcept;
+
+  void clear_reactions() noexcept;
+  /// Sets a contact's reaction -weights x force on the nodes of a feature.
+  void react(const Feature& feature, const Weights& weights, const Triple<double>& force_on_sphere) noexcept;
+
+  struct ClosestPoint {
+    Weights weights;
+    Triple<double> point;  ///< m; on the axis of a wire
+  };
+  ClosestPoint closest(const Feature& feature, const Triple<double>& p) const noexcept;
+  Triple<double> velocity_at(const Feature& feature, const Weights& weights) const noexcept;
+
+  /// m; the largest distance of a node from where it was. @pre since.size() == node_count()
+  double largest_motion(std::span<const Row> since) const noexcept;
+
+  template <class Self, class Visitor>
+  static void visit_state(Self& self, Visitor&& visit) {
+    visit("position", self.position_);
+    visit("velocity", self.velocity_);
+    visit("reaction", self.reaction_);
+  }
+
+ private:
+  std::vector<Feature> features_;
+  std::vector<std::string> part_names_;
+  std::vector<Index> part_of_node_;
+  std::vector<Row> reference_, position_, velocity_, reaction_;
+  bool drifts_ = false;
+};
+
+}  // namespace talus::dem

@@ -1,0 +1,145 @@
+#include "dem_solver/collision/pair_list.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <numeric>
+
+#include "dem_solver/collision/size_classes.hpp"
+
+namespace talus::dem {
+
+namespace {
+
+/// Spheres in the order of their cells; equal cells keep the present order.
+struct SpatialOrder {
+  std::vector<Index> order;       ///< order[new place] = old place
+  std::vector<Index> slab_first;  ///< in new places
+};
+
+SpatialOrder spatial_order(const Spheres& spheres, double cell_size) {
+  const CellGrid grid(spheres.position, cell_size);
+  std::vector<Index> all(spheres.position.size()), cell_of(spheres.position.size());
+  std::iota(all.begin(), all.end(), 0);
+  std::vector<Index> slab_size(static_cast<std::size_t>(grid.slab_count()) + 1, 0);
+  for (Index i : all) {
+    const CellGrid::Cell cell = grid.cell(spheres.position[i]);
+    cell_of[i] = grid.number(cell);
+    ++slab_size[grid.slab(cell) + 1];
+  }
+  CellMembers sorted;
+  sorted.fill(all, cell_of, grid.cell_count());
+  std::partial_sum(slab_size.begin(), slab_size.end(), slab_size.begin());
+  return {std::move(sorted.points), std::move(slab_size)};
+}
+
+/// What one slab found, to be put together in the order of the slabs.
+struct SlabPairs {
+  std::vector<Index> count;  ///< partners of each sphere of the slab
+  std::vector<Index> other;
+  std::vector<PairList::WidePair> wide;
+};
+
+std::vector<Index> slab_of_spheres(std::span<const Index> slab_first) {
+  std::vector<Index> slab(slab_first.back());
+  for (std::size_t k = 0; k + 1 < slab_first.size(); ++k)
+    std::fill(slab.begin() + slab_first[k], slab.begin() + slab_first[k + 1], static_cast<Index>(k));
+  return slab;
+}
+
+bool same_rock(const Spheres& spheres, Index i, Index j) noexcept {
+  return !spheres.rock.empty() && spheres.rock[i] >= 0 && spheres.rock[i] == spheres.rock[j];
+}
+
+SlabPairs search_slab(const Spheres& spheres, const SizeClasses& classes, std::span<const Index> slab,
+                      double skin, Index begin, Index end) {
+  SlabPairs found;
+  for (Index i = begin; i < end; ++i) {
+    const Row& p = spheres.position[i];
+    const std::size_t before = found.other.size();
+    classes.visit_neighbours(p, i, [&](Index j) {
+      const Row& q = spheres.position[j];
+      const double dx = p.x - q.x, dy = p.y - q.y, dz = p.z - q.z, reach = p.w + q.w + skin;
+      if (dx * dx + dy * dy + dz * dz >= reach * reach || same_rock(spheres, i, j)) return;
+      if (std::abs(slab[i] - slab[j]) <= 1)
+        found.other.push_back(j);
+      else
+        found.wide.push_back({i, j});
+    });
+    found.count.push_back(static_cast<Index>(found.other.size() - before));
+  }
+  return found;
+}
+
+/// Pairs that touched at the last evaluation, in the spheres' new places.
+struct OldContact {
+  Index first, second, slot;
+};
+
+std::vector<OldContact> old_contacts(const PairList& list, std::span<const Index> new_place) {
+  std::vector<OldContact> old;
+  const auto first = list.first();
+  const auto keep = [&](Index a, Index b, Index slot) {
+    if (list.touched()[slot]) old.push_back({new_place[a], new_place[b], slot});
+  };
+  for (Index i = 0; i + 1 < static_cast<Index>(first.size()); ++i)
+    for (Index slot = first[i]; slot < first[i + 1]; ++slot) keep(i, list.other()[slot], slot);
+  Index slot = static_cast<Index>(list.other().size());
+  for (const PairList::WidePair& pair : list.wide()) keep(pair.first, pair.second, slot++);
+  return old;
+}
+
+/// Where a pair is listed now; `to` is -1 where it is not.
+SlotMove find_slot(const PairList& list, const OldContact& old) {
+  const auto other = list.other();
+  const auto wide = list.wide();
+  for (const bool reversed : {false, true}) {
+    const Index owner = reversed ? old.second : old.first, partner = reversed ? old.first : old.second;
+    for (Index slot = list.first()[owner]; slot < list.first()[owner + 1]; ++slot)
+      if (other[slot] == partner) return {old.slot, slot, reversed};
+    for (const PairList::WidePair& pair :
+         std::ranges::equal_range(wide, owner, {}, &PairList::WidePair::first))
+      if (pair.second == partner)
+        return {old.slot, static_cast<Index>(other.size() + (&pair - wide.data())), reversed};
+  }
+  return {old.slot, -1, false};
+}
+
+}  // namespace
+
+PairList::Rebuilt PairList::rebuild(Spheres& spheres, double skin, int threads) {
+  SizeClasses classes(spheres, skin);
+  SpatialOrder sorted = spatial_order(spheres, classes.main_cell());
+  std::vector<Index> new_place(sorted.order.size());
+  for (std::size_t i = 0; i < sorted.order.size(); ++i) new_place[sorted.order[i]] = static_cast<Index>(i);
+  const std::vector<OldContact> old = old_contacts(*this, new_place);
+
+  spheres.reorder(sorted.order);
+  classes.build_cells(spheres);
+  slab_first_ = std::move(sorted.slab_first);
+  const std::vector<Index> slab = slab_of_spheres(slab_first_);
+  std::vector<SlabPairs> found(static_cast<std::size_t>(slab_count()));
+#pragma omp parallel for schedule(dynamic) num_threads(threads) if (threads > 1)
+  for (Index k = 0; k < slab_count(); ++k)
+    found[k] = search_slab(spheres, classes, slab, skin, slab_first_[k], slab_first_[k + 1]);
+
+  first_.assign(1, 0);
+  other_.clear();
+  wide_.clear();
+  for (const SlabPairs& part : found) {
+    for (Index count : part.count) first_.push_back(first_.back() + count);
+    other_.insert(other_.end(), part.other.begin(), part.other.end());
+    wide_.insert(wide_.end(), part.wide.begin(), part.wide.end());
+  }
+  touched_.assign(other_.size() + wide_.size(), 0);
+
+  std::vector<SlotMove> moves;
+  for (const OldContact& contact : old) {
+    const SlotMove move = find_slot(*this, contact);
+    if (move.to < 0) continue;
+    touched_[move.to] = 1;
+    moves.push_back(move);
+  }
+  return {std::move(new_place), std::move(moves)};
+}
+
+}  // namespace talus::dem

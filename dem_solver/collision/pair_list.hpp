@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "dem_solver/collision/grid.hpp"
+#include "dem_solver/collision/slot_move.hpp"
+#include "dem_solver/particles/spheres.hpp"
+
+namespace talus::dem {
+
+/// All pairs of spheres nearer than a skin, found by a grid a size class, so that 1 : 100 in size costs no
+/// more than equal sizes.
+///
+/// Every pair has a slot, where its contact law keeps its memory. The spheres are sorted into slabs; a pair
+/// belongs to one of its spheres, its owner, and reaches no further than the neighbouring slabs. Slabs k, k +
+/// 3, k + 6 ... therefore never write to the same sphere, and three passes over every third slab may add
+/// forces in place, by any number of threads, in an order that does not depend on it. The few pairs that
+/// reach further (a boulder among sand) come last, one after the other.
+class PairList {
+ public:
+  static constexpr int passes = 3;
+
+  struct WidePair {
+    Index first = 0, second = 0;
+  };
+  struct Rebuilt {
+    std::vector<Index> new_place;  ///< new_place[old place] of every sphere
+    std::vector<SlotMove> moves;   ///< where the memory of each touching pair goes
+  };
+
+  /// Sorts `spheres` in space and finds all pairs with surfaces nearer than `skin`.
+  Rebuilt rebuild(Spheres& spheres, double skin, int threads);
+
+  Index slots() const noexcept { return static_cast<Index>(touched_.size()); }
+  Index slab_count() const noexcept { return static_cast<Index>(slab_first_.size()) - 1; }
+  /// Spheres of slab k: slab_first()[k] .. slab_first()[k + 1]
+  std::span<const Index> slab_first() const noexcept { return slab_first_; }
+  /// Partners of sphere i: other()[first()[i]] .. other()[first()[i + 1]]; the place is the slot.
+  std::span<const Index> first() const noexcept { return first_; }
+  std::span<const Index> other() const noexcept { return other_; }
+  /// Wide pairs; their slots follow those of other().
+  std::span<const WidePair> wide() const noexcept { return wide_; }
+  /// Whether the pair of each slot touched at the last evaluation. Written by the evaluation.
+  std::span<std::uint8_t> touched() noexcept { return touched_; }
+  std::span<const std::uint8_t> touched() const noexcept { return touched_; }
+
+  /// Calls visit(array) for each array of the state.
+  template <class Self, class Visitor>
+  static void visit_state(Self& self, Visitor&& visit) {
+    visit("slab_first", self.slab_first_);
+    visit("first", self.first_);
+    visit("other", self.other_);
+    visit("wide", self.wide_);
+    visit("touched", self.touched_);
+  }
+
+ private:
+  std::vector<Index> slab_first_{0, 0};
+  std::vector<Index> first_{0};
+  std::vector<Index> other_;
+  std::vector<WidePair> wide_;
+  std::vector<std::uint8_t> touched_;
+};
+
+}  // namespace talus::dem

@@ -1,0 +1,79 @@
+#pragma once
+
+#include "dem_solver/contact/touch.hpp"
+
+/// Friction: a tangential spring with history and a dashpot in parallel, limited by Coulomb's law.
+namespace talus::dem {
+
+/// One coefficient, whatever the sliding speed. parameters.friction.x = mu.
+struct ConstantCoefficient {
+  template <class Real>
+  TALUS_INLINE static Real coefficient(const Triple<Real>&, const ContactParameters<Real>& p) noexcept {
+    return p.friction.x;
+  }
+};
+
+/// mu = mu_d + (mu_s - mu_d) exp(-|vt| / v_decay). parameters.friction = mu_s, mu_d, 1/v_decay (s/m).
+struct FallingCoefficient {
+  template <class Real>
+  TALUS_INLINE static Real coefficient(const Triple<Real>& sliding,
+                                       const ContactParameters<Real>& p) noexcept {
+    const Real speed = square_root(dot(sliding, sliding));
+    return p.friction.y + (p.friction.x - p.friction.y) * exponential(-speed * p.friction.z);
+  }
+};
+
+/// Incremental tangential spring [Mindlin and Deresiewicz 1953 in the no-slip stiffness of Thornton, Cummins,
+/// Cleary 2013, section 3].
+///
+///     turn:     Fe <- (Fe - (Fe.n) n), length kept             the spring follows the contact plane
+///     unload:   Fe <- Fe kt/kt_old  where kt < kt_old          so that unloading gives no energy; loading
+///     leaves Fe stretch:  Fe <- Fe - kt vt step Ft = Fe - ct vt;  where |Ft| > mu Fn: Ft <- mu Fn Ft/|Ft|
+///     and Fe <- Ft energy = Fe^2/(2 kt)
+///
+///     Fe     · spring force on the first sphere   · N    · memory x y z
+///     kt_old · its stiffness at the last step     · N/m  · memory w
+///     vt     · sliding velocity at the contact    · m/s  · of the first over the partner
+///     ct     · dashpot, 2 g sqrt(m* kt)           · N s/m
+/// While it slides the dashpot is off: the spring and the slider alone carry Coulomb's force.
+/// Tests: verification/particles "friction", unit "Unloading a tangential spring returns no more energy than
+/// it was given".
+template <class Coefficient>
+struct CoulombFriction {
+  static constexpr int memory_rows = 1;
+
+  template <class Real>
+  TALUS_INLINE static Triple<Real> force(const Touch<Real>& touch, const NormalForce<Real>& normal,
+                                         const ContactParameters<Real>& p, double step,
+                                         Quad<Real>& memory) noexcept {
+    const Real none{}, tiny = none + 1e-300;
+    const Triple<Real>& n = touch.normal;
+    const Triple<Real> old = triple(memory);
+    const Triple<Real> turned = old - dot(old, n) * n;
+    const Real kept_length = square_root(dot(old, old) / larger(dot(turned, turned), tiny));
+    const Real kt = normal.tangential_stiffness;
+    const Real unloaded = kt < memory.w ? kt / memory.w : none + 1.0;
+
+    const Triple<Real> vt = touch.velocity - dot(touch.velocity, n) * n;
+    const Triple<Real> spring = (kept_length * unloaded) * turned - (kt * step) * vt;
+    const Triple<Real> wanted = spring - normal.tangential_damping * vt;
+    const Real limit = Coefficient::coefficient(vt, p) * normal.total;
+    const Real size = square_root(dot(wanted, wanted));
+    const auto slides = size > limit;
+    const Triple<Real> sliding = (limit / larger(size, tiny)) * wanted;
+    memory = quad(select(slides, sliding, spring), kt);
+    return select(slides, sliding, wanted);
+  }
+
+  /// J; of the spring as it was left in the memory.
+  template <class Real>
+  TALUS_INLINE static Real energy(const Quad<Real>& memory) noexcept {
+    const Real none{}, tiny = none + 1e-300;
+    return memory.w > none ? dot(triple(memory), triple(memory)) / (2.0 * larger(memory.w, tiny)) : none;
+  }
+};
+
+using Friction = CoulombFriction<ConstantCoefficient>;
+using FallingFriction = CoulombFriction<FallingCoefficient>;
+
+}  // namespace talus::dem

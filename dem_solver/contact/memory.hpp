@@ -1,0 +1,71 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "dem_solver/collision/slot_move.hpp"
+#include "dem_solver/particles/row.hpp"
+
+namespace talus::dem {
+
+/// What the contacts of one list remember, a slot each. Laws without memory have no store.
+template <class Law, int rows = Law::memory_rows>
+class ContactMemory {
+ public:
+  using Slot = typename Law::StoredMemory;
+
+  void rebuild(Index slots, std::span<const SlotMove> moves) {
+    std::vector<Slot> moved(static_cast<std::size_t>(slots));
+    for (const SlotMove& move : moves) {
+      moved[move.to] = slots_[move.from];
+      if (move.reversed) Law::reverse(moved[move.to]);
+    }
+    slots_.swap(moved);
+  }
+
+  TALUS_INLINE Slot& operator[](Index slot) noexcept { return slots_[slot]; }
+  std::span<const Slot> all() const noexcept { return slots_; }
+
+  /// The memory of four contacts as lanes.
+  template <class Index4>
+  TALUS_INLINE typename Law::template Memory<Lanes> lanes(const Index4& slot) const noexcept {
+    typename Law::template Memory<Lanes> memory;
+    for (int r = 0; r < rows; ++r)
+      memory[r] = transposed(load(slots_[slot(0)][r]), load(slots_[slot(1)][r]), load(slots_[slot(2)][r]),
+                             load(slots_[slot(3)][r]));
+    return memory;
+  }
+  template <class Index4>
+  TALUS_INLINE void store_lanes(const Index4& slot, int active,
+                                const typename Law::template Memory<Lanes>& memory) noexcept {
+    for (int r = 0; r < rows; ++r) {
+      const Quad<Lanes> by_contact = transposed(memory[r].x, memory[r].y, memory[r].z, memory[r].w);
+      const Lanes value[] = {by_contact.x, by_contact.y, by_contact.z, by_contact.w};
+      for (int k = 0; k < active; ++k) store(slots_[slot(k)][r], value[k]);
+    }
+  }
+
+  template <class Self, class Visitor>
+  static void visit_state(Self& self, Visitor&& visit) {
+    visit("memory", self.slots_);
+  }
+
+ private:
+  std::vector<Slot> slots_;
+};
+
+template <class Law>
+class ContactMemory<Law, 0> {
+ public:
+  void rebuild(Index, std::span<const SlotMove>) noexcept {}
+  template <class Index4>
+  TALUS_INLINE typename Law::template Memory<Lanes> lanes(const Index4&) const noexcept {
+    return {};
+  }
+  template <class Index4>
+  TALUS_INLINE void store_lanes(const Index4&, int, const typename Law::template Memory<Lanes>&) noexcept {}
+  template <class Self, class Visitor>
+  static void visit_state(Self&, Visitor&&) {}
+};
+
+}  // namespace talus::dem

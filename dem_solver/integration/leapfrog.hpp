@@ -1,0 +1,28 @@
+#pragma once
+
+#include "dem_solver/particles/spheres.hpp"
+
+namespace talus::dem {
+
+struct LeapfrogStep {
+  Triple<double> gravity;  ///< m/s^2
+  double step = 0;         ///< s
+  int threads = 1;
+};
+
+/// What a step tells about the motion as a whole.
+struct MotionSummary {
+  double largest_speed = 0;  ///< m/s
+  bool finite = true;        ///< every position and velocity is a number
+};
+
+/// Moves all spheres that are no part of a rock by one step of the leapfrog (symplectic Euler), second order
+/// in time:
+///     v_{n+1/2} = v_{n-1/2} + (F(x_n)/m + g) step      x_{n+1} = x_n + v_{n+1/2} step
+///     w_{n+1/2} = w_{n-1/2} + T(x_n)/I step            I = 2/5 m R^2
+/// The scene's velocity at time 0 is taken as v_{-1/2}; so free fall is z_n = z_0 + n v step - g step^2 n (n
+/// + 1)/2 exactly. Stable for step < 2 sqrt(m/k). Test: "Free fall follows the discrete parabola to
+/// round-off".
+MotionSummary kick_and_drift(Spheres& spheres, const LeapfrogStep& how) noexcept;
+
+}  // namespace talus::dem

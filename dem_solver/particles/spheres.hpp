@@ -1,0 +1,42 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "dem_solver/particles/row.hpp"
+
+namespace talus::dem {
+
+/// One sphere as a scene or a caller gives it.
+struct SphereInput {
+  Triple<double> position;  ///< m
+  Triple<double> velocity;  ///< m/s
+  Triple<double> spin;      ///< rad/s
+  double radius = 0;        ///< m
+  double mass = 0;          ///< kg; of the body the sphere belongs to
+  Index material = 0;
+  Index rock = -1;  ///< the rock it is a part of; -1: a particle of its own
+};
+
+/// State of all spheres, as arrays. The solver reorders them in space whenever it searches for neighbours;
+/// `id` never changes.
+struct Spheres {
+  std::vector<Row> position;  ///< m; w: radius
+  std::vector<Row> velocity;  ///< m/s; half a step behind the position; w: mass of the body that moves
+  std::vector<Row> spin;      ///< rad/s; empty where nothing turns the spheres
+  std::vector<Row> force;     ///< N; of the last evaluation
+  std::vector<Row> torque;    ///< N m; empty where nothing turns the spheres
+  std::vector<Index> material;
+  std::vector<Index> id;    ///< the place of a sphere in the order it was added
+  std::vector<Index> rock;  ///< empty where there are no rocks
+
+  Index size() const noexcept { return static_cast<Index>(position.size()); }
+  bool rotates() const noexcept { return !spin.empty(); }
+  void add(std::span<const SphereInput> input, bool with_rotation);
+  /// Moves sphere order[i] to place i.
+  void reorder(std::span<const Index> order);
+  /// Where each id stands now.
+  std::vector<Index> places() const;
+};
+
+}  // namespace talus::dem

@@ -1,0 +1,108 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "dem_solver/boundary/boundary.hpp"
+#include "dem_solver/boundary/planes.hpp"
+#include "dem_solver/collision/pair_list.hpp"
+#include "dem_solver/contact/materials.hpp"
+#include "dem_solver/scene/contact_models.hpp"
+
+namespace talus::dem {
+
+/// What is to be simulated.
+struct ParticleModel {
+  std::vector<SphereInput> spheres;
+  std::vector<Plane> planes;
+  Boundary boundary;
+  PairTable pairs;
+  LawChoice law;
+  Triple<double> gravity;  ///< m/s^2
+  double step = 0;         ///< s
+  double skin = 0;         ///< m; 0: a fifth of the most frequent size class's radius
+  int threads = 1;
+};
+
+/// Energies at the time level of the forces, t_{n-1} after n steps: the one at which leapfrog energies are
+/// defined (J).
+struct ParticleLedger {
+  double kinetic = 0;   ///< sum of 1/2 m v_{n-3/2}.v_{n-1/2}
+  double rotation = 0;  ///< the same of spins
+  double elastic = 0;   ///< contact springs
+  double damping = 0;   ///< dissipated by normal dashpots since the start
+  double friction = 0;  ///< dissipated by friction and rolling resistance since the start
+  double gravity = 0;   ///< work of gravity since the start
+  double boundary = 0;  ///< work of moving boundaries since the start
+
+  /// What was not there at the start and was not supplied; constant for an exact integration.
+  double balance() const noexcept {
+    return kinetic + rotation + elastic + damping + friction - gravity - boundary;
+  }
+};
+
+/// The particle solver: spheres that meet each other, planes and a boundary. A copy of it is a saved state:
+/// it continues with the same bits.
+class ParticleSolver {
+ public:
+  explicit ParticleSolver(ParticleModel model);
+
+  /// Advances by one step. Forces are those of the positions at the start of the step, of spheres and
+  /// boundary alike.
+  /// @throws NumericalError when a position or velocity is no longer a number.
+  void step();
+
+  std::int64_t steps_done() const noexcept { return steps_done_; }
+  double step_length() const noexcept { return step_; }
+  double time() const noexcept { return static_cast<double>(steps_done_) * step_; }
+  void set_step(double seconds) noexcept { step_ = seconds; }
+
+  const Spheres& spheres() const noexcept { return spheres_; }
+  /// Where the sphere that was added as number id stands now.
+  Index place(Index id) const noexcept { return place_[id]; }
+  Boundary& boundary() noexcept { return boundary_; }
+  const Boundary& boundary() const noexcept { return boundary_; }
+  const BoundaryList& boundary_list() const noexcept { return boundary_list_; }
+  const PairList& pair_list() const noexcept { return pair_list_; }
+  const LawChoice& law() const noexcept { return law_; }
+  /// How often the neighbour lists were built.
+  std::int64_t searches() const noexcept { return searches_; }
+
+  /// @pre the model's law has a ledger
+  ParticleLedger ledger() const noexcept;
+
+ private:
+  void find_neighbours();
+  double largest_motion() const noexcept;
+  void clear_loads() noexcept;
+  void evaluate_contacts() noexcept;
+  void move_spheres();
+  [[noreturn]] void report_not_finite() const;
+  double gravity_work_level() const noexcept;
+
+  Spheres spheres_;
+  std::vector<Plane> planes_;
+  Boundary boundary_;
+  PairTable pairs_;
+  LawChoice law_;
+  Triple<double> gravity_;
+  double step_ = 0;
+  double skin_ = 0;
+  int threads_ = 1;
+
+  PairList pair_list_;
+  PlaneList plane_list_;
+  BoundaryList boundary_list_;
+  AnyContactModel contacts_;
+  std::vector<Index> place_;
+  std::vector<Row> listed_position_;  ///< of the spheres when the lists were built
+  double travelled_ = 0;              ///< m; no sphere has moved further since
+  bool listed_ = false;
+  std::int64_t steps_done_ = 0;
+  std::int64_t searches_ = 0;
+  ContactWork work_;
+  double gravity_level_at_start_ = 0;
+};
+
+}  // namespace talus::dem

@@ -1,0 +1,23 @@
+"""Take part in a coupled Talus run with a solver written in Python.
+
+A structural solver joins, says what it is, and answers commands until there are no more:
+
+    with talus.Participant(segment, talus.Role.structure) as participant:
+        participant.publish_surface(surface, node_masses)
+        participant.declare(talus.Declaration(program="my solver"))
+        for command in participant.commands():
+            ...
+
+docs/participants.md tells the whole story; python/examples/ holds complete programs of some 50 lines.
+"""
+from talus._native import Action, Command, FieldLocation, LedgerKind, Role
+from talus.description import Declaration, Effect, Field, Group, LedgerLine, StepLimit, Surface
+from talus.errors import ConfigError, NumericalError, TalusError, TransportError, UsageError
+from talus.participant import Participant, ParticleFields, StructureFields
+from talus.scene import Section, read_scene
+
+__all__ = [
+    "Action", "Command", "ConfigError", "Declaration", "Effect", "Field", "FieldLocation", "Group", "LedgerKind",
+    "LedgerLine", "NumericalError", "Participant", "ParticleFields", "Role", "Section", "StepLimit",
+    "StructureFields", "Surface", "TalusError", "TransportError", "UsageError", "read_scene",
+]

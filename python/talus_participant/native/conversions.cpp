@@ -1,0 +1,133 @@
+#include "python/talus_participant/native/conversions.hpp"
+
+#include <pybind11/stl.h>
+
+#include <string>
+
+#include "core/errors.hpp"
+
+namespace talus::python {
+namespace {
+
+/// The array's rows, after checking that each holds `columns` values.
+template <std::size_t columns, class Array>
+auto rows(const Array& array, const char* name) {
+  using Value = typename Array::value_type;
+  if (array.size() != 0 && (array.ndim() != 2 || array.shape(1) != static_cast<py::ssize_t>(columns))) {
+    throw core::UsageError(std::string(name) + " expects an array of shape (n, " + std::to_string(columns) +
+                           ")");
+  }
+  std::vector<std::array<Value, columns>> values(static_cast<std::size_t>(array.size()) / columns);
+  std::copy_n(array.data(), array.size(), values.empty() ? nullptr : values.front().data());
+  return values;
+}
+
+template <class Described>
+std::vector<Described> each(const py::handle& items, Described (*describe)(const py::handle&)) {
+  std::vector<Described> described;
+  for (const py::handle item : items) described.push_back(describe(item));
+  return described;
+}
+
+coupler::StepLimit limit_from(const py::handle& limit) {
+  return {.name = limit.attr("name").cast<std::string>(),
+          .seconds = limit.attr("seconds").cast<double>(),
+          .stability = limit.attr("stability").cast<bool>(),
+          .reason = limit.attr("reason").cast<std::string>()};
+}
+
+coupler::Effect effect_from(const py::handle& effect) {
+  return {.name = effect.attr("name").cast<std::string>(),
+          .present = effect.attr("present").cast<bool>(),
+          .reason = effect.attr("reason").cast<std::string>()};
+}
+
+core::ProbeDescription probe_from(const py::handle& name) {
+  return {.name = name.cast<std::string>()};
+}
+
+core::LedgerDescription ledger_line_from(const py::handle& line) {
+  return {.name = line.attr("name").cast<std::string>(), .kind = line.attr("kind").cast<core::LedgerKind>()};
+}
+
+core::FieldDescription field_from(const py::handle& field) {
+  return {.name = field.attr("name").cast<std::string>(),
+          .unit = field.attr("unit").cast<std::string>(),
+          .components = field.attr("components").cast<std::uint8_t>(),
+          .location = field.attr("location").cast<core::FieldLocation>()};
+}
+
+core::GroupDescription group_from(const py::handle& group) {
+  const auto cells =
+      group.attr("cells").cast<py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>>();
+  if (cells.ndim() != 2 || cells.shape(1) < 1 || cells.shape(1) > 3) {
+    throw core::UsageError("cells of a group expects an array of shape (n, 1), (n, 2) or (n, 3)");
+  }
+  return {.name = group.attr("name").cast<std::string>(),
+          .kind = static_cast<core::CellKind>(cells.shape(1)),
+          .nodes = group.attr("nodes").cast<std::int64_t>(),
+          .cells = {cells.data(), cells.data() + cells.size()},
+          .fields = each(group.attr("fields"), field_from)};
+}
+
+template <class Value>
+py::array view_of(std::span<Value> values, std::size_t columns, const py::object& owner) {
+  const auto count = static_cast<py::ssize_t>(values.size());
+  const auto width = static_cast<py::ssize_t>(columns);
+  const py::array::ShapeContainer shape =
+      columns == 0 ? py::array::ShapeContainer{count} : py::array::ShapeContainer{count / width, width};
+  return py::array_t<double>(shape, values.data(), owner);
+}
+
+template <class Row>
+py::array_t<typename Row::value_type> array_of(const std::vector<Row>& values) {
+  using Shape = py::array::ShapeContainer;
+  const Shape shape{static_cast<py::ssize_t>(values.size()),
+                    static_cast<py::ssize_t>(std::tuple_size_v<Row>)};
+  return py::array_t<typename Row::value_type>(shape, values.empty() ? nullptr : values.front().data());
+}
+
+}  // namespace
+
+mesh::Surface surface_from(const py::object& surface) {
+  const auto positions = rows<3>(surface.attr("positions").cast<DoubleArray>(), "positions");
+  mesh::Surface made;
+  for (const auto& position : positions) {
+    made.positions.insert(made.positions.end(), position.begin(), position.end());
+  }
+  made.segments = rows<2>(surface.attr("segments").cast<IndexArray>(), "segments");
+  made.triangles = rows<3>(surface.attr("triangles").cast<IndexArray>(), "triangles");
+  made.parts = {{.name = surface.attr("name").cast<std::string>(),
+                 .segment_end = static_cast<mesh::Index>(made.segments.size()),
+                 .triangle_end = static_cast<mesh::Index>(made.triangles.size())}};
+  return made;
+}
+
+py::dict surface_arrays(const mesh::Surface& surface) {
+  using namespace py::literals;
+  const auto nodes = static_cast<py::ssize_t>(surface.node_count());
+  return py::dict("positions"_a = py::array_t<double>({nodes, py::ssize_t{3}}, surface.positions.data()),
+                  "segments"_a = array_of(surface.segments), "triangles"_a = array_of(surface.triangles));
+}
+
+coupler::Declaration declaration_from(const py::object& declaration) {
+  return {.program = declaration.attr("program").cast<std::string>(),
+          .step = declaration.attr("step").cast<double>(),
+          .limits = each(declaration.attr("limits"), limit_from),
+          .effects = each(declaration.attr("effects"), effect_from),
+          .outputs = {.probes = each(declaration.attr("probes"), probe_from),
+                      .ledger = each(declaration.attr("ledger"), ledger_line_from),
+                      .groups = each(declaration.attr("groups"), group_from)}};
+}
+
+py::array view(std::span<double> values, std::size_t columns, const py::object& owner) {
+  return view_of(values, columns, owner);
+}
+
+py::array view(std::span<const double> values, std::size_t columns, const py::object& owner) {
+  py::array array = view_of(values, columns, owner);
+  array.attr("setflags")(py::arg("write") = false);
+  return array;
+}
+
+}  // namespace talus::python

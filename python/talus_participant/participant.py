@@ -1,0 +1,119 @@
+"""The coupling contract as a solver sees it: the coupler commands, the solver answers."""
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Iterator
+
+import numpy as np
+
+from talus import _native
+from talus._native import Action, Command, Role
+from talus.description import Declaration, Surface
+
+
+@dataclass(frozen=True)
+class StructureFields:
+    """Interface values at the nodes of the published surface, each of shape (nodes, 3): views of the shared memory.
+
+    Displacement and velocity hold the present state at every answer: after `advance`, but also after `restore_state`,
+    `read_checkpoint` and a `report` before the first window.
+    """
+
+    force: np.ndarray  #: N, read only; mean over the window
+    displacement: np.ndarray  #: m, at the window's end
+    velocity: np.ndarray  #: m/s, at the window's end (explicit leapfrog: half a step before)
+
+
+@dataclass(frozen=True)
+class ParticleFields:
+    """Interface values at the nodes of the received boundary, each of shape (nodes, 3): views of the shared memory.
+
+    The two `end` arrays are empty for a participant that takes one step a window.
+    """
+
+    start_displacement: np.ndarray  #: m, read only
+    start_velocity: np.ndarray  #: m/s, read only
+    end_displacement: np.ndarray  #: m, read only
+    end_velocity: np.ndarray  #: m/s, read only
+    force: np.ndarray  #: N, that the boundary receives, mean over the window
+
+
+class Participant:
+    """One side of a coupled run. As a context manager it tells the coupler of any exception that ends the block.
+
+    Before time 0, in this order: `publish_surface` (structure) or `receive_surface` (particles), `declare`. Calls out of
+    order raise UsageError; a coupler that is gone or silent raises TransportError.
+    """
+
+    def __init__(self, segment: str, role: Role = Role.structure, timeout: float = 60.0):
+        """Joins the run behind `segment` (the text after --join); `timeout`: s without a sign of the coupler."""
+        self._native = _native.Participant(segment, role, timeout)
+        self._declaration = Declaration(program="")
+
+    def __enter__(self) -> Participant:
+        return self
+
+    def __exit__(self, kind, error, trace) -> bool:
+        if error is not None:
+            self.fail(error)
+        return False
+
+    def publish_surface(self, surface: Surface, node_masses: np.ndarray) -> None:
+        """Structure: what it moves, and the mass behind each node (shape (nodes,), kg)."""
+        self._native.publish_surface(surface, node_masses)
+
+    def receive_surface(self) -> tuple[Surface, np.ndarray]:
+        """Particles: the boundary at the reference state and the mass that moves behind each node (kg).
+
+        Blocks until the structure has published.
+        """
+        arrays, node_masses = self._native.receive_surface()
+        return Surface(**arrays), node_masses
+
+    def declare(self, declaration: Declaration) -> None:
+        """Step, limits, effects and outputs; what is declared here is what `report` fills."""
+        self._native.declare(declaration)
+        self._declaration = declaration
+
+    def next(self) -> Command:
+        """The next command; blocks, sleeping."""
+        return self._native.next()
+
+    def answer(self) -> None:
+        """Ends the command that next() returned; the coupler reads the fields from here on."""
+        self._native.answer()
+
+    def commands(self) -> Iterator[Command]:
+        """Every command until the run is over; each is answered when the loop comes back for the next."""
+        while (command := self.next()).action != Action.finish:
+            yield command
+            self.answer()
+
+    def fail(self, error: BaseException) -> None:
+        """Says why this participant cannot go on; the coupler stops the run and shows the message."""
+        self._native.fail(error)
+
+    def structure_fields(self) -> StructureFields:
+        """Valid from the first command on, for the participant's life; never copied."""
+        return StructureFields(**self._native.structure_fields())
+
+    def particle_fields(self) -> ParticleFields:
+        """Valid from the first command on, for the participant's life; never copied."""
+        return ParticleFields(**self._native.particle_fields())
+
+    def probes(self) -> np.ndarray:
+        """Where `report` puts one value a declared probe."""
+        return self._native.probes()
+
+    def ledger(self) -> np.ndarray:
+        """Where `report` puts one value a declared ledger line (J)."""
+        return self._native.ledger()
+
+    def positions(self, group: int) -> np.ndarray:
+        """Where `report` puts the current positions of a group, shape (nodes, 3), m, where command.fields is set."""
+        return self._native.positions(group)
+
+    def field(self, group: int, field: int) -> np.ndarray:
+        """Where `report` puts a field of a group, shape (nodes or cells, components), where command.fields is set."""
+        components = self._declaration.groups[group].fields[field].components
+        return self._native.field(group, field, components)
