@@ -7,6 +7,7 @@
 #include <sstream>
 #include <string>
 
+#include "core/output/field_store.hpp"
 #include "core/output/file.hpp"
 
 namespace talus::core {
@@ -33,30 +34,19 @@ const char* topology_name(CellKind kind) {
   return "";
 }
 
-/// An array of numbers with one block of rows a frame.
+/// An array of numbers of one frame.
 struct FrameArray {
   std::string path;  ///< "net/position"
   std::int64_t rows = 0;
   int components = 1;
 };
 
-/// The frame's part of a dataset, as what XDMF calls a hyperslab: start, stride and count of each dimension.
-void add_frame_array(pugi::xml_node parent, const FrameArray& array, std::int64_t frame,
-                     std::int64_t capacity) {
+void add_frame_array(pugi::xml_node parent, const FrameArray& array, std::int64_t frame) {
   const std::string shape = fmt::format("{} {}", array.rows, array.components);
-  auto slab = add(
-      parent, "DataItem",
-      {{"ItemType", "HyperSlab"}, {"Dimensions", "1 " + shape}, {"NumberType", "Float"}, {"Precision", "8"}});
-  add(slab, "DataItem", {{"Dimensions", "3 3"}, {"Format", "XML"}, {"NumberType", "Int"}})
+  add(parent, "DataItem",
+      {{"Dimensions", shape}, {"Format", "HDF"}, {"NumberType", "Float"}, {"Precision", "8"}})
       .text()
-      .set(fmt::format("{} 0 0 1 1 1 1 {}", frame, shape).c_str());
-  add(slab, "DataItem",
-      {{"Dimensions", fmt::format("{} {}", capacity, shape)},
-       {"Format", "HDF"},
-       {"NumberType", "Float"},
-       {"Precision", "8"}})
-      .text()
-      .set(("fields.h5:/" + array.path).c_str());
+      .set(fmt::format("fields.h5:/{}/{}", array.path, frame_name(frame)).c_str());
 }
 
 void add_topology(pugi::xml_node grid, const GroupDescription& group) {
@@ -81,7 +71,6 @@ const char* attribute_type(int components) {
 struct FieldIndex::Document {
   std::filesystem::path path;
   std::vector<GroupDescription> groups;
-  std::int64_t capacity = 0;
   std::int64_t frames = 0;
   pugi::xml_document xml = {};
   pugi::xml_node series = {};
@@ -92,7 +81,7 @@ struct FieldIndex::Document {
     auto grid = add(frame, "Grid", {{"Name", group.name}, {"GridType", "Uniform"}});
     add_topology(grid, group);
     auto geometry = add(grid, "Geometry", {{"GeometryType", "XYZ"}});
-    add_frame_array(geometry, {group.name + "/position", group.nodes, 3}, frames, capacity);
+    add_frame_array(geometry, {group.name + "/position", group.nodes, 3}, frames);
     for (const auto& field : group.fields) {
       const bool on_nodes = field.location == FieldLocation::node;
       auto attribute = add(grid, "Attribute",
@@ -102,14 +91,13 @@ struct FieldIndex::Document {
       add_frame_array(
           attribute,
           {group.name + "/" + field.name, on_nodes ? group.nodes : group.cell_count(), field.components},
-          frames, capacity);
+          frames);
     }
   }
 };
 
-FieldIndex::FieldIndex(const std::filesystem::path& path, const std::vector<GroupDescription>& groups,
-                       std::int64_t frame_capacity)
-    : document_(new Document{.path = path, .groups = {}, .capacity = frame_capacity}) {
+FieldIndex::FieldIndex(const std::filesystem::path& path, const std::vector<GroupDescription>& groups)
+    : document_(new Document{.path = path, .groups = {}}) {
   for (const auto& group : groups) {
     if (group.nodes == 0 || group.cell_count() == 0) continue;
     document_->groups.push_back(group);

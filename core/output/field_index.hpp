@@ -17,8 +17,7 @@ namespace talus::core {
 /// same.
 class FieldIndex {
  public:
-  FieldIndex(const std::filesystem::path& path, const std::vector<GroupDescription>& groups,
-             std::int64_t frame_capacity);
+  FieldIndex(const std::filesystem::path& path, const std::vector<GroupDescription>& groups);
   ~FieldIndex();
   void add_frame(double time);
   /// Writes the file with all frames added so far.

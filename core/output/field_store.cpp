@@ -27,14 +27,35 @@ class Handle {
 
 using Shape = std::vector<hsize_t>;
 
-/// A dataset whose bytes lie in one piece, at an address that is fixed from the start, and are not touched by
-/// the library.
-void set_reserved(hid_t properties) {
-  H5Pset_layout(properties, H5D_CONTIGUOUS);
-  H5Pset_alloc_time(properties, H5D_ALLOC_TIME_EARLY);
-  H5Pset_fill_time(properties, H5D_FILL_TIME_NEVER);
-  H5Pset_obj_track_times(properties, false);
-}
+/// Makes datasets whose bytes lie in one piece, at an address that is fixed from the start, and are not
+/// touched by the library.
+class Reserver {
+ public:
+  explicit Reserver(hid_t numbers) : numbers_(numbers) {
+    H5Pset_layout(properties_, H5D_CONTIGUOUS);
+    H5Pset_alloc_time(properties_, H5D_ALLOC_TIME_EARLY);
+    H5Pset_fill_time(properties_, H5D_FILL_TIME_NEVER);
+    H5Pset_obj_track_times(properties_, false);
+  }
+  /// Returns the place in the file. @pre content, where given, holds as many numbers as the shape
+  std::uint64_t operator()(hid_t parent, const std::string& name, const Shape& shape,
+                           const void* content = nullptr) const {
+    const Handle space(H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr), H5Sclose,
+                       name);
+    const Handle made(
+        H5Dcreate2(parent, name.c_str(), numbers_, space, H5P_DEFAULT, properties_, H5P_DEFAULT), H5Dclose,
+        name);
+    if (content && H5Dwrite(made, numbers_, H5S_ALL, H5S_ALL, H5P_DEFAULT, content) < 0)
+      throw std::runtime_error("the HDF5 library cannot write " + name);
+    const haddr_t offset = H5Dget_offset(made);
+    if (offset == HADDR_UNDEF) throw std::runtime_error("the HDF5 library reserves no place for " + name);
+    return offset;
+  }
+
+ private:
+  hid_t numbers_;  // their type
+  Handle properties_{H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "dataset properties"};
+};
 
 void set_text_attribute(hid_t object, const char* name, const std::string& text) {
   const Handle type(H5Tcopy(H5T_C_S1), H5Tclose, "a text type");
@@ -45,62 +66,55 @@ void set_text_attribute(hid_t object, const char* name, const std::string& text)
   H5Awrite(attribute, type, text.empty() ? " " : text.c_str());
 }
 
-struct Dataset {
+/// One dataset a frame, side by side in the group `path`.
+struct Series {
   std::string path;
-  hid_t type;
-  Shape shape;
   std::string unit;
+  Shape shape;  ///< of a frame
 };
 
-/// Makes a dataset and returns its place in the file.
-std::uint64_t reserve(hid_t file, const Dataset& dataset, const void* content = nullptr) {
-  const Handle space(H5Screate_simple(static_cast<int>(dataset.shape.size()), dataset.shape.data(), nullptr),
-                     H5Sclose, dataset.path);
-  const Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "dataset properties");
-  set_reserved(properties);
-  const Handle made(
-      H5Dcreate2(file, dataset.path.c_str(), dataset.type, space, H5P_DEFAULT, properties, H5P_DEFAULT),
-      H5Dclose, dataset.path);
-  set_text_attribute(made, "unit", dataset.unit);
-  if (content && H5Dwrite(made, dataset.type, H5S_ALL, H5S_ALL, H5P_DEFAULT, content) < 0)
-    throw std::runtime_error("the HDF5 library cannot write " + dataset.path);
-  const haddr_t offset = H5Dget_offset(made);
-  if (offset == HADDR_UNDEF)
-    throw std::runtime_error("the HDF5 library reserves no place for " + dataset.path);
-  return offset;
-}
-
-std::vector<std::uint64_t> reserve_group(hid_t file, const GroupDescription& group, hsize_t capacity) {
-  const Handle made(H5Gcreate2(file, group.name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose,
-                    "group " + group.name);
-  const auto nodes = static_cast<hsize_t>(group.nodes), cells = static_cast<hsize_t>(group.cell_count());
-  reserve(file, {group.name + "/cells", H5T_NATIVE_INT64, {cells, static_cast<hsize_t>(group.kind)}, ""},
-          group.cells.data());
-  std::vector<std::uint64_t> offsets{
-      reserve(file, {group.name + "/position", H5T_NATIVE_DOUBLE, {capacity, nodes, 3}, "m"})};
-  for (const auto& field : group.fields) {
-    const hsize_t rows = field.location == FieldLocation::node ? nodes : cells;
-    offsets.push_back(reserve(
-        file,
-        {group.name + "/" + field.name, H5T_NATIVE_DOUBLE, {capacity, rows, field.components}, field.unit}));
-  }
+std::vector<std::uint64_t> reserve_series(hid_t file, const Series& series, std::int64_t frames) {
+  const Handle group(H5Gcreate2(file, series.path.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose,
+                     series.path);
+  set_text_attribute(group, "unit", series.unit);
+  const Reserver reserve(H5T_NATIVE_DOUBLE);
+  std::vector<std::uint64_t> offsets;
+  for (std::int64_t frame = 0; frame < frames; ++frame)
+    offsets.push_back(reserve(group, frame_name(frame), series.shape));
   return offsets;
 }
 
+FieldStore::GroupPlaces reserve_group(hid_t file, const GroupDescription& group, std::int64_t frames) {
+  const Handle made(H5Gcreate2(file, group.name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose,
+                    group.name);
+  const auto nodes = static_cast<hsize_t>(group.nodes), cells = static_cast<hsize_t>(group.cell_count());
+  Reserver{H5T_NATIVE_INT64}(made, "cells", {cells, static_cast<hsize_t>(group.kind)}, group.cells.data());
+  FieldStore::GroupPlaces places{reserve_series(made, {"position", "m", {nodes, 3}}, frames)};
+  for (const auto& field : group.fields) {
+    const hsize_t rows = field.location == FieldLocation::node ? nodes : cells;
+    places.push_back(reserve_series(made, {field.name, field.unit, {rows, field.components}}, frames));
+  }
+  return places;
+}
+
 }  // namespace
+
+std::string frame_name(std::int64_t frame) {
+  return fmt::format("{:06}", frame);
+}
 
 FieldStore::Layout FieldStore::reserve_all(const std::filesystem::path& path,
                                            const std::vector<GroupDescription>& groups, std::int64_t frames) {
   const Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose,
                     path.string());
-  const auto capacity = static_cast<hsize_t>(frames);
   Layout layout;
   const std::int64_t none = 0;
-  layout.count = reserve(file, {"frames_written", H5T_NATIVE_INT64, {1}, ""}, &none);
-  layout.time = reserve(file, {"time", H5T_NATIVE_DOUBLE, {capacity}, "s"});
-  for (const auto& group : groups)
-    layout.groups.push_back(group.nodes > 0 && group.cell_count() > 0 ? reserve_group(file, group, capacity)
-                                                                      : std::vector<std::uint64_t>{});
+  layout.count = Reserver{H5T_NATIVE_INT64}(file, "frames_written", {1}, &none);
+  layout.time = Reserver{H5T_NATIVE_DOUBLE}(file, "time", {static_cast<hsize_t>(frames)});
+  for (const auto& group : groups) {
+    const bool drawn = group.nodes > 0 && group.cell_count() > 0;
+    layout.groups.push_back(drawn ? reserve_group(file, group, frames) : GroupPlaces{});
+  }
   return layout;
 }
 
@@ -119,8 +133,8 @@ void FieldStore::write(const Slot& slot, std::span<const double> values) {
     throw UsageError(fmt::format("fields.h5 was made for {} frames only", capacity_));
   const auto& places = layout_.groups.at(slot.group);
   if (places.empty()) return;
-  const auto frame = static_cast<std::uint64_t>(frames_written_);
-  write_numbers(places.at(static_cast<std::size_t>(slot.field + 1)) + frame * values.size_bytes(), values);
+  const auto& frames = places.at(static_cast<std::size_t>(slot.field + 1));
+  write_numbers(frames.at(static_cast<std::size_t>(frames_written_)), values);
 }
 
 void FieldStore::end_frame(double time) {

@@ -11,21 +11,35 @@
 
 namespace talus::core {
 
+/// The name of a frame's datasets: "000012".
+std::string frame_name(std::int64_t frame);
+
 /// fields.h5: the frames of every group's positions and fields.
 ///
 ///     /time            [frames]                 s
 ///     /frames_written  [1]                      frames that are complete; the others hold zeros
 ///     /<group>/cells   [cells, nodes a cell]    node indices
-///     /<group>/position, /<group>/<field>       [frames, nodes or cells, components]
+///     /<group>/position/000000, 000001, ...     [nodes, 3]                     m
+///     /<group>/<field>/000000, 000001, ...      [nodes or cells, components]   unit: an attribute of
+///     /<group>/<field>
 ///
-/// The HDF5 library writes the file's structure once, before the first frame, and closes it. Frames are then
-/// plain writes into the places reserved for them, so that a kill at any moment leaves a file that opens.
-/// Frames not yet written take no disk space.
+/// One dataset a frame, because ParaView's Xdmf3 reader cannot read a part of a dataset. The HDF5 library
+/// writes the file's structure once, before the first frame, and closes it. Frames are then plain writes into
+/// the places reserved for them, so that a kill at any moment leaves a file that opens. Frames not yet
+/// written take no disk space.
 class FieldStore {
  public:
   /// @pre group names differ; a group without nodes is left out
   FieldStore(const std::filesystem::path& path, const std::vector<GroupDescription>& groups,
              std::int64_t frame_capacity);
+
+  /// Places in the file, in bytes: of each frame, for the position and then each field of a group; empty for
+  /// a group left out.
+  using GroupPlaces = std::vector<std::vector<std::uint64_t>>;
+  struct Layout {
+    std::uint64_t time = 0, count = 0;
+    std::vector<GroupPlaces> groups = {};
+  };
 
   /// Where a dataset of `group` lies; `field` -1 is the position.
   struct Slot {
@@ -41,12 +55,6 @@ class FieldStore {
   std::int64_t capacity() const { return capacity_; }
 
  private:
-  /// Places in the file, in bytes.
-  struct Layout {
-    std::uint64_t time = 0, count = 0;
-    std::vector<std::vector<std::uint64_t>>
-        groups;  ///< of each group's position and fields; none for a group left out
-  };
   static Layout reserve_all(const std::filesystem::path& path, const std::vector<GroupDescription>& groups,
                             std::int64_t frames);
   void write_numbers(std::uint64_t offset, std::span<const double> values);

@@ -67,7 +67,7 @@ std::vector<std::string> columns(const std::vector<Description>& descriptions,
 struct FieldFiles {
   FieldFiles(const std::filesystem::path& folder, const std::vector<GroupDescription>& groups,
              std::int64_t capacity)
-      : store(folder / "fields.h5", groups, capacity), index(folder / "fields.xdmf", groups, capacity) {}
+      : store(folder / "fields.h5", groups, capacity), index(folder / "fields.xdmf", groups) {}
   FieldStore store;
   FieldIndex index;
 };

@@ -31,11 +31,11 @@ class ResultWriter {
   struct Options {
     std::filesystem::path folder;
     ResultFolder::Existing existing = ResultFolder::Existing::refuse;
-    std::string title;
-    std::string program;              ///< "talus 0.1.0"
-    std::filesystem::path scene;      ///< as given by the user
-    std::string scene_hash;           ///< SceneFile::hash()
-    std::int64_t frame_capacity = 0;  ///< most frames write_fields() will be called for; 0: no field files
+    std::string title = {};
+    std::string program = {};          ///< "talus 0.1.0"
+    std::filesystem::path scene = {};  ///< as given by the user
+    std::string scene_hash = {};       ///< SceneFile::hash()
+    std::int64_t frame_capacity = 0;   ///< most frames write_fields() will be called for; 0: no field files
   };
 
   /// Columns and groups of several sources stand side by side, in their order. The sources must outlive the

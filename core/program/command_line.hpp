@@ -19,7 +19,7 @@ std::string version();  ///< "0.1.0"
 
 /// --out, --overwrite, --threads, --quiet, --json
 struct RunOptions {
-  std::filesystem::path out;  ///< empty: results/<scene file's stem>
+  std::filesystem::path out = {};  ///< empty: results/<scene file's stem>
   ResultFolder::Existing existing = ResultFolder::Existing::refuse;
   ProgressStyle progress = ProgressStyle::automatic;
   int threads = 1;

@@ -21,7 +21,7 @@ struct ProgressState {
   double end = 0;           ///< s
   std::int64_t steps = 0;   ///< steps or windows done
   double energy_error = 0;  ///< relative, see LedgerBalance
-  std::string limit;        ///< what limits the step, e.g. "cable net"; empty: unknown
+  std::string limit = {};   ///< what limits the step, e.g. "cable net"; empty: unknown
 };
 
 /// Shows how a run gets on: simulated time, steps, real-time factor (simulated time over wall time), energy
