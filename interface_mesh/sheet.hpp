@@ -12,7 +12,7 @@ struct Sheet {
   double element_size = 0;  ///< m; wanted edge length of the triangles
   double edge_spacing = 0;  ///< m; wanted distance of the nodes on the outline; 0: the element size
   std::vector<Vector2>
-      edge_nodes;  ///< m; where on the outline nodes must be, e.g. those of a rope's shackles
+      edge_nodes{};  ///< m; where on the outline nodes must be, e.g. those of a rope's shackles
 };
 
 /// One part, `sheet`; triangles counter-clockwise about along x across. A rectangle whose edges are left to
