@@ -39,9 +39,9 @@ class OutputArrays {
     return block.subspan(part.begin, part.count);
   }
 
+  std::size_t size_ = 0;  // first: the constructor counts in it while it makes the others
   Part probes_, ledger_;
   std::vector<Group> groups_;
-  std::size_t size_ = 0;
 };
 
 }  // namespace talus::coupler

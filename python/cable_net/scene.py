@@ -30,6 +30,7 @@ class Model:
     motion: Motion
     step: float  #: s
     probes: list[Probe]
+    coupled: bool  #: particles may push the net
 
 
 def read_model(path: str) -> Model:
@@ -42,7 +43,8 @@ def read_model(path: str) -> Model:
     motion = Motion(cables, _read_supports(structure, part, net), _read_damping(structure), _read_gravity(structure))
     step = (structure if "step" in structure else scene.section("time")).number("step", "s")
     structure.finish()
-    return Model(part, net, motion, step, _read_probes(scene, net))
+    return Model(part, net, motion, step, _read_probes(scene, net),
+                 coupled="interface" in scene)
 
 
 def _read_part(parts: talus.Section) -> tuple[str, Net, CableProperties]:

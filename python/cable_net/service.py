@@ -12,12 +12,19 @@ PROGRAM = "cable_net_solver (NumPy)"
 
 def serve(participant: talus.Participant, model: Model) -> None:
     """Answers commands until the run is over."""
-    surface = talus.Surface(model.net.positions, segments=model.net.wires, name=model.part)
-    participant.publish_surface(surface, model.motion.net.node_masses)
+    participant.publish_surface(*interface_surface(model))
     participant.declare(declaration(model))
     service = Service(participant, model)
     for command in participant.commands():
         service.answer(command)
+
+
+def interface_surface(model: Model) -> tuple[talus.Surface, np.ndarray]:
+    """The whole net and its node masses (kg); nothing where the scene has no particles to push it."""
+    if not model.coupled:
+        return talus.Surface(np.empty((0, 3))), np.empty(0)
+    surface = talus.Surface(model.net.positions, segments=model.net.wires, name=model.part)
+    return surface, model.motion.net.node_masses
 
 
 def declaration(model: Model) -> talus.Declaration:
@@ -49,13 +56,13 @@ class Service:
     def answer(self, command: talus.Command) -> None:
         """Does what the coupler wants and shows the state it leads to."""
         self._answers[command.action](command)
-        fields = self._participant.structure_fields()
-        fields.displacement[:] = self._state.displacement
-        fields.velocity[:] = self._state.velocity
+        if self._model.coupled:
+            fields = self._participant.structure_fields()
+            fields.displacement[:], fields.velocity[:] = self._state.displacement, self._state.velocity
 
     def _advance(self, command: talus.Command) -> None:
         steps = max(1, round(command.length / self._model.step))
-        force = self._participant.structure_fields().force
+        force = self._participant.structure_fields().force if self._model.coupled else np.zeros(3)
         for _ in range(steps):
             self._model.motion.step(self._state, force, command.length / steps)
         self._check(command)

@@ -74,16 +74,15 @@ template <class Value>
 py::array view_of(std::span<Value> values, std::size_t columns, const py::object& owner) {
   const auto count = static_cast<py::ssize_t>(values.size());
   const auto width = static_cast<py::ssize_t>(columns);
-  const py::array::ShapeContainer shape =
-      columns == 0 ? py::array::ShapeContainer{count} : py::array::ShapeContainer{count / width, width};
+  std::vector<py::ssize_t> shape{count};
+  if (columns > 0) shape = {count / width, width};
   return py::array_t<double>(shape, values.data(), owner);
 }
 
 template <class Row>
 py::array_t<typename Row::value_type> array_of(const std::vector<Row>& values) {
-  using Shape = py::array::ShapeContainer;
-  const Shape shape{static_cast<py::ssize_t>(values.size()),
-                    static_cast<py::ssize_t>(std::tuple_size_v<Row>)};
+  const std::vector<py::ssize_t> shape{static_cast<py::ssize_t>(values.size()),
+                                       static_cast<py::ssize_t>(std::tuple_size_v<Row>)};
   return py::array_t<typename Row::value_type>(shape, values.empty() ? nullptr : values.front().data());
 }
 

@@ -1,0 +1,172 @@
+#include <catch2/catch.hpp>
+
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <thread>
+
+#include "core/errors.hpp"
+#include "coupler/participant.hpp"
+#include "coupler/schemes/serial_explicit.hpp"
+#include "coupler/session/introduction.hpp"
+#include "coupler/transport/segment.hpp"
+
+using namespace talus;
+using coupler::Action;
+using coupler::Role;
+
+namespace {
+
+const std::string root = TALUS_SOURCE_DIR;
+
+coupler::Window window_of(std::int64_t index) {
+  return {.index = index, .length = 1e-3};
+}
+
+/// A structure in Python, and particles that this test is itself.
+class PythonRun {
+ public:
+  explicit PythonRun(std::vector<std::string> command)
+      : segment_(coupler::transport::create_shared_segment()), session_(segment_, {.timeout = 20}) {
+    setenv("PYTHONPATH", TALUS_BINARY_DIR "/python", 1);
+    command.insert(command.begin(), TALUS_PYTHON);
+    session_.launch(Role::structure, command);
+    session_.await(Role::particles);
+    particles_ = coupler::Participant::join({.segment = segment_->name(), .role = Role::particles});
+  }
+  ~PythonRun() {
+    session_.abort("the test is over");
+    if (pushing_.joinable()) pushing_.join();
+  }
+
+  /// Pushes node `node` down with `force(window)` N in each window.
+  void start(std::size_t node, double (*force)(std::int64_t)) {
+    pushing_ = std::thread([this, node, force] { push(node, force); });
+    session_.wait_joined();
+    interface_ = coupler::introduce(session_, coupler::identical_surfaces());
+    coupler::lay_out_arrays(session_, interface_, window_of(0).length);
+    exchange_.emplace(session_, interface_->tie.mapping);
+  }
+  void compute(std::int64_t window) { coupler::SerialExplicit{}.compute(*exchange_, window_of(window)); }
+  coupler::Session& session() { return session_; }
+  coupler::Peer& structure() { return *session_.find(Role::structure); }
+  const coupler::Interface& interface() const { return *interface_; }
+
+ private:
+  void push(std::size_t node, double (*force)(std::int64_t)) try {
+    const auto particles = std::move(particles_);  // leaves the run when this thread ends
+    std::vector<double> masses;
+    particles->receive_surface(masses);
+    particles->declare({.program = "the test", .limits = {}, .effects = {}, .outputs = {}});
+    for (auto command = particles->next(); command.action != Action::finish; command = particles->next()) {
+      if (command.action == Action::advance) {
+        particles->particle_fields().force[3 * node + 2] = force(command.window);
+      }
+      particles->answer();
+    }
+  } catch (const core::TransportError&) {
+    // The run was ended, which the test sees on the coupler's side.
+  }
+
+  std::shared_ptr<coupler::transport::Segment> segment_;
+  coupler::Session session_;
+  std::unique_ptr<coupler::Participant> particles_;
+  std::optional<coupler::Interface> interface_;
+  std::optional<coupler::Exchange> exchange_;
+  std::thread pushing_;
+};
+
+double pulsating_force(std::int64_t window) {
+  return -50 * std::cos(0.01 * static_cast<double>(window));
+}
+
+double no_force(std::int64_t) {
+  return 0;
+}
+
+void run_failing(const std::string& how) {
+  PythonRun run({root + "/tests/coupled/participants/failing.py", how});
+  run.start(0, no_force);
+  for (int window = 0; window < 5; ++window) run.compute(window);
+}
+
+/// s that the failure of a participant takes to be known, its Python's start not counted.
+constexpr double noticed_within = 1;
+
+}  // namespace
+
+TEST_CASE("masses on springs in Python move as the leapfrog says, to the last bit") {
+  PythonRun run({root + "/python/examples/springs.py", "scene.yaml"});
+  const std::size_t middle = 12, corner = 0;
+  run.start(middle, pulsating_force);
+  REQUIRE(run.interface().structure.node_count() == 25);
+  REQUIRE(run.interface().structure.triangles.size() == 32);
+  CHECK(run.interface().structure_masses == std::vector<double>(25, 10.0));
+
+  const auto displacement = run.structure().array(coupler::transport::ArrayName::displacement);
+  double position = 0, velocity = 0;
+  for (int window = 0; window < 1000; ++window) {
+    run.compute(window);
+    velocity += 1e-3 * (pulsating_force(window) - 2e4 * position) / 10;
+    position += 1e-3 * velocity;
+    REQUIRE(displacement[3 * middle + 2] == position);
+    REQUIRE(displacement[3 * corner + 2] == 0);
+  }
+  run.session().ask(run.structure(), {.action = Action::report, .window = 1000});
+  CHECK(run.structure().output_arrays().probes(
+            run.structure().array(coupler::transport::ArrayName::outputs))[0] == position);
+  run.session().finish();
+}
+
+TEST_CASE("a Python participant goes back to the state it saved") {
+  PythonRun run({root + "/python/examples/springs.py", "scene.yaml"});
+  run.start(12, pulsating_force);
+  const auto displacement = run.structure().array(coupler::transport::ArrayName::displacement);
+  for (int window = 0; window < 10; ++window) run.compute(window);
+  const double saved = displacement[3 * 12 + 2];
+  run.session().ask(run.structure(), {.action = Action::save_state, .window = 10});
+  for (int window = 10; window < 20; ++window) run.compute(window);
+  CHECK(displacement[3 * 12 + 2] != saved);
+  run.session().ask(run.structure(), {.action = Action::restore_state, .window = 10});
+  CHECK(displacement[3 * 12 + 2] == saved);
+  run.session().finish();
+}
+
+TEST_CASE("a NumericalError raised in Python reaches the coupler with its step, time and entity") {
+  try {
+    run_failing("numerical");
+    FAIL("the run went on");
+  } catch (const core::NumericalError& error) {
+    CHECK(error.details().what == "velocity is not finite");
+    CHECK(error.details().entity == "node 0");
+    CHECK(error.details().step == 2);
+    CHECK(error.details().time == 0.002);
+    CHECK(std::isinf(error.details().value));
+  }
+}
+
+TEST_CASE("a ConfigError raised in Python ends the run with exactly its text") {
+  CHECK_THROWS_WITH(run_failing("config"), "scene.yaml: structure.solver: has no net");
+  CHECK_THROWS_AS(run_failing("config"), core::ConfigError);
+}
+
+TEST_CASE("any other exception in Python ends the run with its type, its text and the window") {
+  using Catch::Contains;
+  CHECK_THROWS_WITH(run_failing("exception"),
+                    Contains("ZeroDivisionError: a bug of the solver") && Contains("window 2"));
+  CHECK_THROWS_AS(run_failing("exception"), core::TransportError);
+}
+
+TEST_CASE("a Python participant that leaves or is killed is named within a second") {
+  for (const auto& [how, told] :
+       {std::pair{"leave", "SystemExit: 3"}, std::pair{"kill", "killed by signal 9"}}) {
+    PythonRun run({root + "/tests/coupled/participants/failing.py", how});
+    run.start(0, no_force);
+    run.compute(0);
+    run.compute(1);
+    const auto before = std::chrono::steady_clock::now();
+    CHECK_THROWS_WITH(run.compute(2), Catch::Contains(told) && Catch::Contains("window 2"));
+    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - before;
+    CHECK(taken.count() < noticed_within);
+  }
+}
