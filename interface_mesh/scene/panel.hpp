@@ -18,6 +18,8 @@ struct PanelScene {
   std::optional<std::vector<core::Vector3>> outline;  ///< m
 
   bool is_rectangle() const { return !outline; }
+  /// Whether a panel can be made: not so while a scene with complaints is read.
+  bool is_complete() const { return outline ? outline->size() >= 3 : corner && size && size->size() == 2; }
 };
 /// Reads the keys at the level of the section that holds the panel.
 void describe(core::Fields& fields, PanelScene& panel);

@@ -15,11 +15,6 @@ namespace {
 constexpr double off_outline = 1e-6;
 constexpr double most_triangles = 2e7;
 
-bool is_complete(const PanelScene& panel) {
-  if (panel.outline) return panel.outline->size() >= 3;
-  return panel.corner && panel.size && panel.size->size() == 2;
-}
-
 /// In the panel's plane; the third component is the height over it.
 core::Vector3 in_panel(const Panel& panel, const core::Vector3& place) {
   const core::Vector3 from_origin = place - panel.origin;
@@ -54,7 +49,7 @@ void describe(core::Fields& fields, SheetScene& sheet) {
                    .help = "wanted distance of nodes on the outline; absent: element_size"});
   fields.with_default("edge_nodes", sheet.edge_nodes,
                       {.unit = "m", .help = "places on the outline where nodes must be, such as shackles"});
-  if (sheet.element_size <= 0 || !is_complete(sheet.panel)) return;
+  if (sheet.element_size <= 0 || !sheet.panel.is_complete()) return;
   const double triangles =
       signed_area(make_panel(sheet.panel).outline) / std::pow(sheet.element_size, 2) / std::sqrt(3.0 / 16);
   fields.rule(triangles <= most_triangles, "element_size",

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "interface_mesh/net_patterns.hpp"
 #include "interface_mesh/square_net.hpp"
 
 namespace talus::mesh {
@@ -31,8 +32,6 @@ void describe(core::Fields& fields, SquareNetScene& net) {
   fields.with_default(
       "wire_diameter", net.wire_diameter,
       {.unit = "m", .range = core::not_negative, .help = "thickness of the wires in contact"});
-  fields.rule(net.panel.is_rectangle(), "outline",
-              "is no rectangle: square nets are made from corner and size");
   if (net.pitch <= 0 || !net.panel.size) return;
   for (const double size : *net.panel.size) {
     fields.rule(
@@ -45,6 +44,8 @@ void describe(core::Fields& fields, SquareNetScene& net) {
 
 Net generate(const SquareNetScene& scene) {
   const Panel panel = make_panel(scene.panel);
+  if (!scene.panel.is_rectangle())
+    return clip(lattice(SquarePattern{.pitch = scene.pitch, .wire_diameter = scene.wire_diameter}), panel);
   const Vector2 size = panel.outline[2];
   const auto openings = [&](double length) { return static_cast<Index>(std::lround(length / scene.pitch)); };
   return generate(SquareNet{.corner = panel.origin,

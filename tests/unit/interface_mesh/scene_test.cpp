@@ -1,8 +1,10 @@
 #include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
 
 #include "interface_mesh/points.hpp"
+#include "interface_mesh/scene/nets.hpp"
 #include "interface_mesh/scene/sheet.hpp"
-#include "interface_mesh/scene/square_net.hpp"
 #include "tests/support/scenes.hpp"
 
 using namespace talus;
@@ -76,6 +78,66 @@ TEST_CASE("edge nodes off the outline or at one place are told with their coordi
   CHECK(complaints_about(start + "[[1.1, 0, 0]]}", scene) == "");
   // 1.1 m and 1.9 m at 0.5 m: 2 and 4 parts.
   CHECK(mesh::generate(scene).find_set("edge_south")->nodes.size() == 7);
+}
+
+TEST_CASE("a chain-link net given by its opening and mesh angle has that opening") {
+  mesh::RhombicNetScene scene;
+  CHECK(complaints_about(
+            "section: {corner: [0, 0, 0], size: [1, 1], opening: 65 mm, angle: 60 deg, wire_diameter: 3 mm}",
+            scene) == "");
+  CHECK(mesh::opening(scene.pattern()) == Approx(0.065).epsilon(1e-12));
+  CHECK(std::atan2(scene.pattern().diagonals[0], scene.pattern().diagonals[1]) ==
+        Approx(std::numbers::pi / 6).epsilon(1e-12));
+  CHECK_FALSE(mesh::generate(scene).surface.segments.empty());
+}
+
+TEST_CASE("a chain-link net without or with contradictory mesh sizes is refused") {
+  const std::string start = "section: {corner: [0, 0, 0], size: [1, 1], wire_diameter: 3 mm";
+  const std::string complaint =
+      "scene.yaml:1:59: section.wire_diameter: needs `diagonals`, or `opening` and `angle`, beside it: how "
+      "large are the "
+      "meshes?";
+  for (const std::string keys :
+       {"", ", opening: 1 mm", ", diagonals: [1, 2], opening: 1, angle: 1", ", diagonals: [1, 2], angle: 1"})
+    CHECK(complaints_about<mesh::RhombicNetScene>(start + keys + "}") == complaint);
+  CHECK(complaints_about<mesh::RhombicNetScene>(start + ", diagonals: [1 mm, 1 mm]}")
+            .find("leaves no opening between the wires") != std::string::npos);
+  CHECK(complaints_about<mesh::RhombicNetScene>(start + ", diagonals: [1 m]}")
+            .find("needs two lengths, but has 1") != std::string::npos);
+}
+
+TEST_CASE("double-twist and ring nets are read from data-sheet values, and impossible ones refused") {
+  mesh::HexagonalNetScene twisted;
+  const std::string panel = "section: {corner: [0, 0, 0], size: [2, 2], ";
+  CHECK(complaints_about(panel + "mesh_size: [80 mm, 100 mm], twist_length: 40 mm, wire_diameter: 2.7 mm}",
+                         twisted) == "");
+  CHECK(mesh::generate(twisted).surface.parts.size() == 2);
+  CHECK(complaints_about<mesh::HexagonalNetScene>(
+            panel + "mesh_size: [80 mm, 100 mm], twist_length: 120 mm, wire_diameter: 2.7 mm}")
+            .find("twist_length: must be less than the length of an opening, 0.1 m") != std::string::npos);
+  mesh::RingNetScene rings;
+  CHECK(complaints_about(panel + "inner_diameter: 300 mm, windings: 12, wire_diameter: 3 mm}", rings) == "");
+  CHECK(mesh::generate(rings).surface.parts[0].wire_radius == Approx(rings.pattern().bundle_diameter() / 2));
+  CHECK(complaints_about<mesh::RingNetScene>(panel +
+                                             "inner_diameter: 300 mm, windings: 12, wire_diameter: 30 mm}")
+            .find("on rings touch across the corner") != std::string::npos);
+}
+
+TEST_CASE("a net of more segments than can be meant is refused before it is made") {
+  CHECK(complaints_about<mesh::RingNetScene>("section: {corner: [0, 0, 0], size: [3 km, 3 km], "
+                                             "inner_diameter: 300 mm, windings: 12, wire_diameter: 3 mm}")
+            .find("are the units right?") != std::string::npos);
+}
+
+TEST_CASE("a square net is clipped to an outline that is no rectangle") {
+  SquareNetScene scene;
+  CHECK(complaints_about("section: {outline: [[0, 0, 0], [2, 0, 0], [0, 2, 0]], pitch: 0.5}", scene) == "");
+  const auto net = mesh::generate(scene);
+  // Wires at 0, 0.5, 1, 1.5 of lengths 2, 1.5, 1, 0.5 each way.
+  double length = 0;
+  for (const auto& [a, b] : net.surface.segments)
+    length += (mesh::point(net.surface.positions, b) - mesh::point(net.surface.positions, a)).norm();
+  CHECK(length == Approx(10).epsilon(1e-12));
 }
 
 TEST_CASE("an element size that would make too many triangles is refused before they are made") {
