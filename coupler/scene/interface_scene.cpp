@@ -24,8 +24,9 @@ struct MakeBoundary {
   mesh::Surface operator()(const SameAsStructure& boundary) const {
     return with_contact(structure, boundary);
   }
-  mesh::Surface operator()(const SquareNetBoundary& boundary) const {
-    return with_contact(mesh::generate(boundary.net).surface, boundary.material);
+  template <class SurfaceScene>
+  mesh::Surface operator()(const OwnBoundary<SurfaceScene>& boundary) const {
+    return with_contact(mesh::generate(boundary.surface).surface, boundary.material);
   }
   const mesh::Surface& structure;
 };
@@ -52,16 +53,18 @@ void describe(core::Fields& fields, SameAsStructure& boundary) {
   fields.with_default("material", boundary.material, {.help = material_help});
 }
 
-void describe(core::Fields& fields, SquareNetBoundary& boundary) {
-  describe(fields, boundary.net);
+template <class SurfaceScene>
+void describe(core::Fields& fields, OwnBoundary<SurfaceScene>& boundary) {
+  describe(fields, boundary.surface);
   fields.with_default("material", boundary.material, {.help = material_help});
 }
 
 void describe(core::Fields& fields, BoundaryScene& boundary) {
-  fields.one_of(
-      boundary.kind,
-      {{"same_as_structure", "the particles touch the structure's own lines and triangles"},
-       {"square_net", "the particles touch a net of square openings that moves with the structure"}});
+  std::vector<core::Fields::Alternative> kinds{
+      {"same_as_structure", "the particles touch the structure's own lines and triangles"}};
+  for (const auto& net : mesh::net_alternatives({{"sheet", "a panel filled with triangles"}}))
+    kinds.push_back(net);
+  fields.one_of(boundary.kind, kinds);
 }
 
 void describe(core::Fields& fields, NearestFeature& mapping) {

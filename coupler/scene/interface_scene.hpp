@@ -7,7 +7,8 @@
 
 #include "core/scene/fields.hpp"
 #include "coupler/session/introduction.hpp"
-#include "interface_mesh/scene/square_net.hpp"
+#include "interface_mesh/scene/nets.hpp"
+#include "interface_mesh/scene/sheet.hpp"
 
 /// `interface:` which parts of the structure the particles can touch, what they touch there, and how the two
 /// are tied.
@@ -20,14 +21,16 @@ struct SameAsStructure {
 };
 void describe(core::Fields& fields, SameAsStructure& boundary);
 
-/// Ω_D is a net of its own, with its real openings and wires.
-struct SquareNetBoundary {
-  mesh::SquareNetScene net;
+/// Ω_D is a surface of its own, such as a net with its real openings and wires.
+template <class SurfaceScene>
+struct OwnBoundary {
+  SurfaceScene surface;
   std::string material;
 };
-void describe(core::Fields& fields, SquareNetBoundary& boundary);
 
-using BoundaryChoice = std::variant<SameAsStructure, SquareNetBoundary>;
+using BoundaryChoice = std::variant<SameAsStructure, OwnBoundary<mesh::SquareNetScene>,
+                                    OwnBoundary<mesh::RhombicNetScene>, OwnBoundary<mesh::HexagonalNetScene>,
+                                    OwnBoundary<mesh::RingNetScene>, OwnBoundary<mesh::SheetScene>>;
 struct BoundaryScene {
   BoundaryChoice kind;
 };
