@@ -47,7 +47,10 @@ ChannelParticipant::ChannelParticipant(std::shared_ptr<Segment> segment, const J
       options_(options) {
   const Header& header = control_.header;
   if (header.coupler_pid != 0) {
-    coupler_ = ProcessHandle({.pid = static_cast<pid_t>(header.coupler_pid), .start = header.coupler_start});
+    const ProcessIdentity coupler{.pid = static_cast<pid_t>(header.coupler_pid),
+                                  .start = header.coupler_start};
+    coupler_ = ProcessHandle(coupler);
+    watch_.emplace(coupler, name_of(options.role));
   }
   auto expected = static_cast<std::uint32_t>(ChannelState::awaited);
   if (!std::atomic_ref(channel_.state)
@@ -74,20 +77,20 @@ void ChannelParticipant::expect(Stage stage, const char* call) const {
   throw core::UsageError(fmt::format("{} may not follow {}", call, after[static_cast<std::size_t>(stage_)]));
 }
 
-void ChannelParticipant::give_up(std::string reason) const {
-  throw core::TransportError({.peer = control_.header.coupler_pid == 0
-                                          ? std::string("the coupler")
-                                          : fmt::format("the coupler (pid {})", control_.header.coupler_pid),
-                              .waited_for = waited_for_,
-                              .window = window_,
-                              .reason = std::move(reason),
-                              .waiter = name_of(options_.role)});
+core::TransportError::Details ChannelParticipant::details(std::string reason) const {
+  return {.peer = control_.header.coupler_pid == 0
+                      ? std::string("the coupler")
+                      : fmt::format("the coupler (pid {})", control_.header.coupler_pid),
+          .waited_for = waited_for_,
+          .window = window_,
+          .reason = std::move(reason),
+          .waiter = name_of(options_.role)};
 }
 
 /// Called each slice of a wait: throws where waiting on is no use.
 void ChannelParticipant::look_around(double seconds_waited) {
   const auto state = static_cast<RunState>(load(control_.header.state));
-  if (state == RunState::aborted) give_up("ended the run: " + text_of(control_.header));
+  if (state == RunState::aborted) throw RunAborted(details("ended the run: " + text_of(control_.header)));
   if (state == RunState::ended) give_up("left");
   if (!coupler_.alive()) {
     segment_->remove_name();  // the coupler can no longer do it

@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 
+#include "coupler/coupler_watch.hpp"
 #include "coupler/messages/output_arrays.hpp"
 #include "coupler/participant.hpp"
 #include "coupler/transport/layout.hpp"
@@ -10,6 +11,11 @@
 #include "coupler/transport/segment.hpp"
 
 namespace talus::coupler {
+
+/// The coupler ended the run, and it is the one who says why.
+class RunAborted : public core::TransportError {
+  using core::TransportError::TransportError;
+};
 
 /// A participant over one channel of a segment, be it shared memory or this process's own.
 class ChannelParticipant final : public Participant {
@@ -41,7 +47,10 @@ class ChannelParticipant final : public Participant {
 
   void expect(Stage stage, const char* call) const;
   void look_around(double seconds_waited);
-  [[noreturn]] void give_up(std::string reason) const;
+  core::TransportError::Details details(std::string reason) const;
+  [[noreturn]] void give_up(std::string reason) const {
+    throw core::TransportError(details(std::move(reason)));
+  }
   void map_arrays();
   std::span<double> array(transport::ArrayName name) const { return arrays_[static_cast<std::size_t>(name)]; }
   std::span<double> outputs() const;
@@ -50,6 +59,7 @@ class ChannelParticipant final : public Participant {
   transport::Control& control_;
   transport::Channel& channel_;
   transport::ProcessHandle coupler_;
+  std::optional<CouplerWatch> watch_;  ///< where the coupler is another process
   JoinOptions options_;
   Stage stage_ = Stage::joined;
   std::string waited_for_ = "the coupler to begin";

@@ -1,5 +1,6 @@
 #include "coupler/participant.hpp"
 
+#include "core/program/log.hpp"
 #include "coupler/channel_participant.hpp"
 #include "coupler/transport/segment.hpp"
 
@@ -7,6 +8,22 @@ namespace talus::coupler {
 
 std::unique_ptr<Participant> Participant::join(const JoinOptions& options) {
   return std::make_unique<ChannelParticipant>(transport::open_shared_segment(options.segment), options);
+}
+
+core::ExitCode take_part(const JoinOptions& options, const std::function<void(Participant&)>& serve) {
+  const auto participant = Participant::join(options);
+  try {
+    serve(*participant);
+    return core::ExitCode::success;
+  } catch (const RunAborted& error) {
+    return core::exit_code(error);
+  } catch (const core::TransportError& error) {
+    core::log_error(error.what());  // nobody is left to be told
+    return core::exit_code(error);
+  } catch (const std::exception& error) {
+    participant->fail(error);
+    return core::exit_code(error);
+  }
 }
 
 void report(Participant& participant, const Command& command, const core::OutputSource& source) {

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "core/errors.hpp"
 #include "core/output/source.hpp"
 #include "interface_mesh/surface.hpp"
 
@@ -129,6 +131,11 @@ class Participant {
   virtual std::span<double> positions(std::size_t group) = 0;
   virtual std::span<double> field(std::size_t group, std::size_t field) = 0;
 };
+
+/// The whole coupled life of a program: joins, serves, and tells the coupler what `serve` throws, which then
+/// says it to the user. Only where the coupler itself is gone does this program say so. Never throws but what
+/// join() throws.
+core::ExitCode take_part(const JoinOptions& options, const std::function<void(Participant&)>& serve);
 
 /// Answers Action::report from a source; the same for every solver.
 void report(Participant& participant, const Command& command, const core::OutputSource& source);

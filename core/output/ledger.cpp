@@ -9,12 +9,25 @@ bool is_kinetic(const LedgerDescription& line) {
   return line.kind == LedgerKind::stored && line.name.find("kinetic") != std::string::npos;
 }
 
+double sign(LedgerKind kind) {
+  switch (kind) {
+    case LedgerKind::stored:
+    case LedgerKind::dissipated:
+      return 1;
+    case LedgerKind::supplied:
+      return -1;
+    case LedgerKind::memo:
+      break;
+  }
+  return 0;
+}
+
 }  // namespace
 
 LedgerBalance::Row LedgerBalance::add(std::span<const double> joules) {
   double balance = 0, kinetic = 0;
   for (std::size_t i = 0; i < lines_.size(); ++i) {
-    balance += lines_[i].kind == LedgerKind::supplied ? -joules[i] : joules[i];
+    balance += sign(lines_[i].kind) * joules[i];
     if (is_kinetic(lines_[i])) kinetic += joules[i];
   }
   if (!started_) first_balance_ = balance;

@@ -10,6 +10,7 @@ namespace talus::core {
 /// The energy ledger's balance over a run.
 ///
 ///     balance = sum of stored + sum of dissipated - sum of supplied            (J)
+///     (memo lines count nowhere)
 ///     error   = balance now - balance in the first row                         (J)
 ///     error_relative = error / (largest sum of the stored lines named kinetic, over the run so far)
 ///

@@ -40,8 +40,8 @@ struct ProbeDescription {
   std::string name;  ///< "net_centre.displacement_z_m": probe, quantity, SI unit
 };
 
-/// How a ledger line enters the balance  stored + dissipated - supplied = constant.
-enum class LedgerKind : std::uint8_t { stored, dissipated, supplied };
+/// How a ledger line enters the balance  stored + dissipated - supplied = constant. A memo is only shown.
+enum class LedgerKind : std::uint8_t { stored, dissipated, supplied, memo };
 struct LedgerDescription {
   std::string name;  ///< "structure.kinetic_J": side, line, unit
   LedgerKind kind = LedgerKind::stored;

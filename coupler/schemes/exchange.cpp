@@ -12,6 +12,8 @@ bool all_zero(std::span<const double> values) {
   return std::all_of(values.begin(), values.end(), [](double value) { return value == 0; });
 }
 
+}  // namespace
+
 Command advance(const Window& window, int iteration) {
   return {.action = Action::advance,
           .window = window.index,
@@ -19,8 +21,6 @@ Command advance(const Window& window, int iteration) {
           .time = window.start(),
           .length = window.length};
 }
-
-}  // namespace
 
 Exchange::Side Exchange::side(Session& session, Role role) {
   Peer& peer = *session.find(role);

@@ -16,6 +16,9 @@ struct Window {
   double start() const { return static_cast<double>(index) * length; }
 };
 
+/// The command to compute this window.
+Command advance(const Window& window, int iteration = 0);
+
 /// What a coupling scheme is written in: the two sides, and the mapping between their arrays, which stand in
 /// shared memory; values are mapped straight from one side's array into the other's.
 class Exchange {

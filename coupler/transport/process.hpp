@@ -33,6 +33,8 @@ class ProcessHandle {
   bool wait_end(int milliseconds) const noexcept;
   void send_signal(int signal) const noexcept;
   pid_t pid() const noexcept { return identity_.pid; }
+  /// Readable for poll(2) once the process has ended; -1 for no process.
+  int descriptor() const noexcept { return descriptor_; }
 
  private:
   ProcessIdentity identity_;

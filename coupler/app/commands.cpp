@@ -1,0 +1,71 @@
+#include "coupler/app/commands.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "core/program/command_line.hpp"
+#include "coupler/run/inspect.hpp"
+#include "coupler/run/run_scene.hpp"
+
+namespace talus::coupler {
+
+const std::vector<AddSubcommand>& subcommands() {
+  static const std::vector<AddSubcommand> all{add_run, add_check, add_explain, add_schema, add_version};
+  return all;
+}
+
+void add_run(CLI::App& app, Chosen& chosen) {
+  auto* command = app.add_subcommand("run", "compute a scene and write its result");
+  const auto request = std::make_shared<RunRequest>();
+  command->add_option("SCENE", request->scene, "the scene, a YAML file")->required();
+  core::add_run_options(*command, request->options);
+  command->callback([request, &chosen] {
+    chosen.run = [request] {
+      core::apply(request->options);
+      return run_scene(*request);
+    };
+  });
+}
+
+namespace {
+
+/// A subcommand that only looks at a scene.
+void add_inspection(CLI::App& app, Chosen& chosen, const char* name, const char* help,
+                    core::ExitCode (*inspect)(const std::filesystem::path&)) {
+  auto* command = app.add_subcommand(name, help);
+  const auto scene = std::make_shared<std::filesystem::path>();
+  command->add_option("SCENE", *scene, "the scene, a YAML file")->required();
+  command->callback([scene, inspect, &chosen] { chosen.run = [scene, inspect] { return inspect(*scene); }; });
+}
+
+}  // namespace
+
+void add_check(CLI::App& app, Chosen& chosen) {
+  add_inspection(app, chosen, "check",
+                 "print every step limit of a scene; exit code 2 where a stability limit is exceeded",
+                 check_scene);
+}
+
+void add_explain(CLI::App& app, Chosen& chosen) {
+  add_inspection(app, chosen, "explain", "print which effects are in a scene, which are not, and why",
+                 explain_scene);
+}
+
+void add_schema(CLI::App& app, Chosen& chosen) {
+  app.add_subcommand("schema", "print all keys of a scene as Markdown (docs/schema.md)")->callback([&chosen] {
+    chosen.run = print_schema;
+  });
+}
+
+void add_version(CLI::App& app, Chosen& chosen) {
+  app.add_subcommand("version", "print the version")->callback([&chosen] {
+    chosen.run = [] {
+      fmt::print("talus {}\n", core::version());
+      return core::ExitCode::success;
+    };
+  });
+}
+
+}  // namespace talus::coupler

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "core/errors.hpp"
+
+namespace CLI {
+class App;
+}
+
+/// The subcommands of `talus`.
+namespace talus::coupler {
+
+/// What the command line asks for, set by the subcommand that was named.
+struct Chosen {
+  std::function<core::ExitCode()> run;
+};
+
+/// Adds a subcommand with its options to the application.
+using AddSubcommand = void (*)(CLI::App& app, Chosen& chosen);
+
+void add_run(CLI::App& app, Chosen& chosen);
+void add_check(CLI::App& app, Chosen& chosen);
+void add_explain(CLI::App& app, Chosen& chosen);
+void add_schema(CLI::App& app, Chosen& chosen);
+void add_version(CLI::App& app, Chosen& chosen);
+
+/// All of them, in the order of the help page.
+const std::vector<AddSubcommand>& subcommands();
+
+}  // namespace talus::coupler

@@ -1,0 +1,59 @@
+#include "coupler/launch/find_solver.hpp"
+
+#include <unistd.h>
+
+#include <cstdlib>
+#include <sstream>
+
+#include "core/errors.hpp"
+
+namespace talus::coupler::launch {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<fs::path> folders_of_path() {
+  const char* variable = std::getenv("PATH");
+  std::istringstream folders(variable == nullptr ? "" : variable);
+  std::vector<fs::path> all;
+  for (std::string folder; std::getline(folders, folder, ':');) all.emplace_back(folder);
+  return all;
+}
+
+bool is_python(const fs::path& file) {
+  return file.extension() == ".py";
+}
+
+bool can_be_started(const fs::path& file) {
+  std::error_code error;
+  return fs::is_regular_file(file, error) && (is_python(file) || access(file.c_str(), X_OK) == 0);
+}
+
+}  // namespace
+
+fs::path program_folder() {
+  return fs::read_symlink("/proc/self/exe").parent_path();
+}
+
+fs::path own_solver(const std::string& name) {
+  const fs::path file = program_folder() / name;
+  if (!can_be_started(file))
+    throw core::ConfigError("the program " + file.string() + " is missing; build it first");
+  return file;
+}
+
+std::optional<std::vector<std::string>> named_solver(const std::string& written,
+                                                     const fs::path& relative_to_scene) {
+  std::vector<fs::path> candidates{relative_to_scene, program_folder() / written};
+  if (written.find('/') == std::string::npos) {
+    for (const auto& folder : folders_of_path()) candidates.push_back(folder / written);
+  }
+  for (const auto& file : candidates) {
+    if (!can_be_started(file)) continue;
+    if (is_python(file)) return std::vector<std::string>{"python3", file.string()};
+    return std::vector<std::string>{file.string()};
+  }
+  return std::nullopt;
+}
+
+}  // namespace talus::coupler::launch

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace talus::coupler::launch {
+
+/// The folder of the running program.
+std::filesystem::path program_folder();
+
+/// A program of Talus itself, which stands beside the running one. @throws core::ConfigError where it is not
+/// there
+std::filesystem::path own_solver(const std::string& name);
+
+/// The command that starts a solver a scene names: absolute, else relative to the scene, else beside the
+/// running program, else on PATH. A Python file is run by python3. @returns nothing where there is no such
+/// program
+std::optional<std::vector<std::string>> named_solver(const std::string& written,
+                                                     const std::filesystem::path& relative_to_scene);
+
+}  // namespace talus::coupler::launch

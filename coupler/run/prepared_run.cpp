@@ -1,0 +1,69 @@
+#include "coupler/run/prepared_run.hpp"
+
+#include "core/program/stop.hpp"
+#include "coupler/launch/find_solver.hpp"
+
+namespace talus::coupler {
+namespace {
+
+struct SideProgram {
+  Role role;
+  const char* own_program;
+  const std::optional<SolverScene>& scene;
+};
+
+/// The command line of a side's program, or nothing with a complaint where the scene names one that is not
+/// there.
+std::optional<std::vector<std::string>> command_of(const SideProgram& side, const core::SceneFile& file,
+                                                   int threads, std::vector<core::Complaint>& complaints) {
+  if (!side.scene->solver) {
+    return std::vector<std::string>{launch::own_solver(side.own_program), file.path(), "--threads",
+                                    std::to_string(threads)};
+  }
+  const std::string& written = *side.scene->solver;
+  auto command = launch::named_solver(written, file.resolve(written));
+  if (command) {
+    command->push_back(file.path());
+  } else {
+    complaints.push_back(
+        {.file = file.path(),
+         .key_path = std::string(name_of(side.role)) + ".solver",
+         .message = "names the program '" + written +
+                    "', which is not there: looked relative to the scene, beside talus, and on PATH"});
+  }
+  return command;
+}
+
+std::unique_ptr<Session> open_session(const CouplingScene& coupling) {
+  transport::remove_stale_segments();
+  return std::make_unique<Session>(transport::create_shared_segment(),
+                                   SessionOptions{.timeout = coupling.timeout,
+                                                  .join_timeout = coupling.join_timeout,
+                                                  .interrupted = core::stop_requested});
+}
+
+}  // namespace
+
+PreparedRun prepare(const PrepareOptions& options) {
+  std::vector<core::Complaint> complaints;
+  core::SceneFile file = core::SceneFile::load(options.scene);
+  CoupledScene scene = read_coupled_scene(file, complaints);
+  PreparedRun run{
+      .file = std::move(file), .scene = std::move(scene), .session = nullptr, .interface = {}, .limits = {}};
+  run.session = open_session(run.scene.coupling);
+  for (const SideProgram& side : {SideProgram{Role::structure, "fem_solver", run.scene.structure},
+                                  SideProgram{Role::particles, "dem_solver", run.scene.particles}}) {
+    if (!side.scene) continue;
+    if (const auto command = command_of(side, run.file, options.threads, complaints))
+      run.session->launch(side.role, *command);
+  }
+  run.session->wait_joined();
+  std::optional<InterfacePlan> plan;
+  if (run.scene.interface) plan = plan_of(*run.scene.interface);
+  run.interface = introduce(*run.session, plan, std::move(complaints));
+  lay_out_arrays(*run.session, run.interface, run.window_length());
+  run.limits = check_limits(*run.session, run.window_length());
+  return run;
+}
+
+}  // namespace talus::coupler

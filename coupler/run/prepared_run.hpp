@@ -1,0 +1,34 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "coupler/run/limits.hpp"
+#include "coupler/scene/coupled_scene.hpp"
+#include "coupler/session/introduction.hpp"
+
+namespace talus::coupler {
+
+/// A scene whose participants run, have introduced themselves and wait for their first command.
+struct PreparedRun {
+  core::SceneFile file;
+  CoupledScene scene;
+  std::unique_ptr<Session> session;
+  std::optional<Interface> interface;
+  std::vector<CheckedLimit> limits;  ///< tightest first; not judged yet
+
+  double window_length() const { return scene.window(); }
+};
+
+struct PrepareOptions {
+  std::filesystem::path scene;
+  int threads = 1;  ///< of each of Talus's own solvers
+};
+
+/// Reads the scene, starts its solvers and hears them.
+/// @throws core::ConfigError with the complaints of all programs about the scene, TransportError, Interrupted
+PreparedRun prepare(const PrepareOptions& options);
+
+}  // namespace talus::coupler

@@ -1,0 +1,48 @@
+#include "coupler/run/reporter.hpp"
+
+#include <algorithm>
+
+namespace talus::coupler {
+
+Reporter::Reporter(Session& session, core::ResultWriter& results, Plan plan, core::ProgressStyle style)
+    : session_(session), results_(results), plan_(std::move(plan)), progress_(style, "windows") {}
+
+core::ProgressState Reporter::state(std::int64_t window) const {
+  return {.time = static_cast<double>(window) * plan_.span.window_length,
+          .end = plan_.span.end,
+          .steps = window,
+          .energy_error = results_.balance().last().error_relative,
+          .limit = plan_.limited_by};
+}
+
+void Reporter::at(std::int64_t window) {
+  const bool frame = plan_.frames && plan_.frames->due(window);
+  if (frame || plan_.rows.due(window)) write(window, frame);
+  progress_.update(state(window));
+}
+
+void Reporter::last(std::int64_t window) {
+  if (written_ < window) write(window, plan_.frames.has_value());
+  progress_.finish(state(window));
+}
+
+void Reporter::write(std::int64_t window, bool frame) {
+  const double time = static_cast<double>(window) * plan_.span.window_length;
+  const auto peers = session_.peers();
+  // Both fill their values at the same time; neither needs the other's.
+  for (Peer* peer : peers) {
+    session_.post(*peer, {.action = Action::report,
+                          .fields = frame,
+                          .window = window,
+                          .time = time,
+                          .length = plan_.span.window_length});
+  }
+  for (Peer* peer : peers) session_.wait_answer(*peer);
+  results_.write_row(time);
+  if (frame) results_.write_fields(time);
+  plan_.rows.done(window);
+  if (plan_.frames) plan_.frames->done(window);
+  written_ = window;
+}
+
+}  // namespace talus::coupler

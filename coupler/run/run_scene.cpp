@@ -1,0 +1,127 @@
+#include "coupler/run/run_scene.hpp"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "core/output/result_writer.hpp"
+#include "core/program/log.hpp"
+#include "core/program/stop.hpp"
+#include "coupler/run/prepared_run.hpp"
+#include "coupler/run/reporter.hpp"
+#include "coupler/run/sources.hpp"
+#include "coupler/run/summary.hpp"
+#include "coupler/schemes/serial_explicit.hpp"
+#include "coupler/schemes/uncoupled.hpp"
+
+namespace talus::coupler {
+namespace {
+
+using core::RunStatus;
+
+constexpr double rows_of_a_run = 200;  // where output.every is not given
+
+Reporter::Plan plan_of(const PreparedRun& run) {
+  const Span span{.end = run.scene.time.end, .window_length = run.window_length()};
+  const core::OutputScene& output = run.scene.output;
+  Reporter::Plan plan{.span = span,
+                      .rows = Schedule(span, output.every > 0 ? output.every : span.end / rows_of_a_run),
+                      .frames = {},
+                      .limited_by = tightest_name(run.limits)};
+  if (output.fields_every) plan.frames.emplace(span, *output.fields_every);
+  return plan;
+}
+
+/// Windows from the first to the last, or to a request to stop between two of them.
+template <class Compute>
+RunStatus run_windows(Reporter& reporter, const Span& span, Compute&& compute) {
+  for (std::int64_t n = 0; n < span.windows(); ++n) {
+    reporter.at(n);
+    if (core::stop_requested()) {
+      reporter.last(n);
+      return RunStatus::interrupted;
+    }
+    compute(Window{.index = n, .length = span.window_length});
+  }
+  reporter.last(span.windows());
+  return RunStatus::finished;
+}
+
+/// The sides of a run and their output, put together once everything about them is known.
+struct Assembled {
+  explicit Assembled(PreparedRun& run) {
+    for (Peer* peer : run.session->peers()) peers.emplace_back(*peer);
+    for (const auto& peer : peers) sources.push_back(&peer);
+    if (!run.interface) return;
+    exchange.emplace(*run.session, run.interface->tie.mapping);
+    sources.push_back(&interface.emplace(*run.interface, *run.session->find(Role::particles), *exchange));
+  }
+  std::vector<PeerSource> peers;
+  std::optional<Exchange> exchange;
+  std::optional<InterfaceSource> interface;
+  std::vector<const core::OutputSource*> sources;
+};
+
+core::ResultWriter::Options result_options(const PreparedRun& run, const RunRequest& request,
+                                           const Reporter::Plan& plan) {
+  return {.folder = request.options.folder_for(request.scene),
+          .existing = request.options.existing,
+          .title = run.file.title(),
+          .program = "talus " + core::version(),
+          .scene = request.scene,
+          .scene_hash = run.file.hash(),
+          .frame_capacity = plan.frames ? plan.frames->count(plan.span.windows()) : 0};
+}
+
+RunStatus compute(PreparedRun& run, Assembled& parts, Reporter& reporter, const Span& span) {
+  RunStatus status{};
+  if (parts.exchange) {
+    status = run_windows(reporter, span,
+                         [&](const Window& window) { SerialExplicit{}.compute(*parts.exchange, window); });
+  } else {
+    status =
+        run_windows(reporter, span, [&](const Window& window) { Uncoupled{}.compute(*run.session, window); });
+  }
+  run.session->finish();
+  return status;
+}
+
+core::ExitCode run_prepared(PreparedRun& run, const RunRequest& request) {
+  refuse_unstable_steps(run.limits, request.scene);
+  Reporter::Plan plan = plan_of(run);
+  Assembled parts(run);
+  core::ResultWriter results(result_options(run, request, plan), parts.sources);
+  core::open_log_file(results.folder() / "log.txt");
+  for (const auto& warning : warnings_of(run.limits)) core::log_warning(warning);
+  add_facts(results.summary(), run);
+  try {
+    Reporter reporter(*run.session, results, plan, request.options.progress);
+    const RunStatus status = compute(run, parts, reporter, plan.span);
+    results.finish(status);
+    core::log_info(closing_words(results.folder()));
+    return status == RunStatus::finished ? core::ExitCode::success : core::ExitCode::interrupted;
+  } catch (const std::exception& error) {
+    results.finish(RunStatus::failed, error.what());
+    throw;
+  }
+}
+
+}  // namespace
+
+core::ExitCode run_scene(const RunRequest& request) {
+  core::watch_stop_signals();
+  try {
+    PreparedRun run = prepare({.scene = request.scene, .threads = request.options.threads});
+    try {
+      return run_prepared(run, request);
+    } catch (const std::exception& error) {
+      run.session->abort(error.what());
+      throw;
+    }
+  } catch (const Interrupted&) {
+    core::log_info("stopped before the first window; nothing was written");
+    return core::ExitCode::interrupted;
+  }
+}
+
+}  // namespace talus::coupler

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <filesystem>
+
+#include "core/errors.hpp"
+#include "core/program/command_line.hpp"
+
+namespace talus::coupler {
+
+struct RunRequest {
+  std::filesystem::path scene;
+  core::RunOptions options;
+};
+
+/// `talus run`: from the scene to the written result.
+/// @throws core::ConfigError, TransportError, NumericalError; the result, where there is one already, then
+/// says that it failed
+core::ExitCode run_scene(const RunRequest& request);
+
+}  // namespace talus::coupler

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+namespace talus::coupler {
+
+/// How the span of a run is cut.
+struct Span {
+  double end = 0;            ///< s
+  double window_length = 0;  ///< s
+  /// Windows that cover the span; a rest below a millionth of a window is round-off, a larger one takes
+  /// another window.
+  std::int64_t windows() const { return static_cast<std::int64_t>(std::ceil(end / window_length - 1e-6)); }
+};
+
+/// Events that recur every so many seconds, each at the start of the window nearest to its time. Counted in
+/// integers, so that nothing drifts; events closer than a window fall on every window.
+class Schedule {
+ public:
+  Schedule(const Span& span, double every) : every_in_windows_(every / span.window_length) {}
+
+  bool due(std::int64_t window) const { return next_ <= window; }
+  /// Moves on to the first event after `window`.
+  void done(std::int64_t window) {
+    while (next_ <= window) next_ = std::llround(static_cast<double>(++event_) * every_in_windows_);
+  }
+  /// Events of a run that takes one at time 0 and one at its end.
+  std::int64_t count(std::int64_t windows) const {
+    return static_cast<std::int64_t>(static_cast<double>(windows) / every_in_windows_) + 2;
+  }
+
+ private:
+  double every_in_windows_;
+  std::int64_t event_ = 0, next_ = 0;
+};
+
+}  // namespace talus::coupler

@@ -1,0 +1,72 @@
+#include "coupler/run/summary.hpp"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "core/units/units.hpp"
+
+namespace talus::coupler {
+namespace {
+
+using nlohmann::json;
+
+json to_json(const CheckedLimit& limit) {
+  return {{"side", limit.side},
+          {"name", limit.limit.name},
+          {"limit_s", limit.limit.seconds},
+          {"step_s", limit.step},
+          {"kind", limit.limit.stability ? "stability" : "accuracy"},
+          {"exceeded", limit.exceeded()},
+          {"reason", limit.limit.reason}};
+}
+
+json to_json(const Effect& effect, const std::string& side) {
+  return {{"side", side}, {"name", effect.name}, {"present", effect.present}, {"reason", effect.reason}};
+}
+
+json to_json(const Interface& interface) {
+  return {{"structure_nodes", interface.structure.node_count()},
+          {"boundary_nodes", interface.boundary.node_count()},
+          {"largest_distance_m", interface.tie.largest_distance},
+          {"tolerance_m", interface.tie.tolerance}};
+}
+
+}  // namespace
+
+void add_facts(json& summary, const PreparedRun& run) {
+  summary["window_s"] = run.window_length();
+  summary["limited_by"] = tightest_name(run.limits);
+  summary["warnings"] = warnings_of(run.limits);
+  summary["limits"] = summary["effects"] = json::array();
+  for (const auto& limit : run.limits) summary["limits"].push_back(to_json(limit));
+  for (Peer* peer : run.session->peers()) {
+    summary["participants"][name_of(peer->role())] = peer->declaration().program;
+    for (const auto& effect : peer->declaration().effects)
+      summary["effects"].push_back(to_json(effect, name_of(peer->role())));
+  }
+  if (run.interface) summary["interface"] = to_json(*run.interface);
+}
+
+std::string closing_words(const std::filesystem::path& folder) {
+  const json summary = json::parse(std::ifstream(folder / "summary.json"));
+  std::string words = summary.at("status").get<std::string>() + "\n";
+  for (const auto& [name, peak] : summary.at("peaks").items()) {
+    words += fmt::format("  peak {:<36} {:>13.6g} at {}\n", name, peak.at("value").get<double>(),
+                         core::readable(peak.at("time_s").get<double>(), "s"));
+  }
+  words += fmt::format("  energy error     {:.3g} of the largest kinetic energy\n",
+                       summary.at("energy").at("error_relative").get<double>());
+  words += fmt::format("  real-time factor {:.3g} ({} simulated in {})\n",
+                       summary.at("real_time_factor").get<double>(),
+                       core::readable(summary.at("simulated_time_s").get<double>(), "s"),
+                       core::readable(summary.at("wall_time_s").get<double>(), "s"));
+  const auto limited_by = summary.at("limited_by").get<std::string>();
+  if (!limited_by.empty()) words += "  step limited by  " + limited_by + "\n";
+  for (const auto& warning : summary.at("warnings"))
+    words += "  warning: " + warning.get<std::string>() + "\n";
+  return words + "  files in         " + folder.string();
+}
+
+}  // namespace talus::coupler

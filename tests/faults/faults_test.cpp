@@ -1,0 +1,223 @@
+#include <signal.h>
+
+#include <catch2/catch.hpp>
+#include <chrono>
+#include <fstream>
+#include <optional>
+#include <set>
+#include <thread>
+
+#include "tests/support/program.hpp"
+
+using namespace talus;
+using namespace std::chrono_literals;
+using Catch::Matchers::Contains;
+using Catch::Matchers::Matches;
+
+namespace {
+
+/// A fault is noticed within a slice of 50 ms and everybody is gone within a grace of 1 s; the rest is for a
+/// busy machine.
+constexpr auto end_limit = 4s;
+
+std::set<std::string> segments() {
+  std::set<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator("/dev/shm")) {
+    const std::string name = entry.path().filename();
+    if (name.starts_with("talus-")) names.insert(name);
+  }
+  return names;
+}
+
+struct Faults {
+  std::string structure = "none", particles = "none";
+  int at = 20;
+  std::string coupling = "timeout: 2 s, join_timeout: 2 s";
+};
+
+/// `talus run` on two dummy solvers of which one misbehaves.
+class Run {
+ public:
+  explicit Run(const Faults& faults) {
+    std::ofstream scene(folder_.path() / "scene.yaml");
+    const auto side = [&](const char* name, const std::string& behaviour) {
+      scene << name << ": {solver: " << TALUS_BINARY_DIR << "/bin/dummy_" << name
+            << ", behaviour: " << behaviour << ", at: " << faults.at << "}\n";
+    };
+    scene << "time: {end: 60 s, step: 1 ms}\n";
+    side("structure", faults.structure);
+    side("particles", faults.particles);
+    scene << "interface: {structure: [node], boundary: {same_as_structure: {}}}\n"
+          << "coupling: {" << faults.coupling << "}\n"
+          << "output: {every: 1 ms}\n";
+    scene.close();
+    program_.emplace(std::vector<std::string>{TALUS_BINARY_DIR "/bin/talus", "run",
+                                              (folder_.path() / "scene.yaml").string(), "--out",
+                                              (folder_.path() / "result").string(), "--quiet"},
+                     folder_.path() / "output.txt");
+  }
+
+  /// Sleeps until the run has written rows, and remembers who takes part.
+  void wait_for_rows() {
+    const auto deadline = std::chrono::steady_clock::now() + 20s;
+    while (rows() < 5) {
+      REQUIRE(std::chrono::steady_clock::now() < deadline);
+      std::this_thread::sleep_for(5ms);
+    }
+    children_ = test::children_of(program_->pid());
+    REQUIRE(children_.size() == 2);
+  }
+  int child(const std::string& name) const {
+    for (const auto& child : children_) {
+      if (child.name.find(name) != std::string::npos) return child.pid;
+    }
+    FAIL("no child " << name);
+    return 0;
+  }
+  long rows() const {
+    const std::string text = test::text_of(folder_.path() / "result/probes.csv");
+    return std::count(text.begin(), text.end(), '\n') - 1;
+  }
+  test::Program& program() { return *program_; }
+  const std::vector<test::ChildProcess>& children() const { return children_; }
+  std::string output() const { return test::text_of(folder_.path() / "output.txt"); }
+  std::string summary() const { return test::text_of(folder_.path() / "result/summary.json"); }
+
+  /// Waits for the end and checks what holds after every fault: nothing is left, and the result says that it
+  /// failed.
+  test::Ended ended() {
+    const auto begin = std::chrono::steady_clock::now();
+    const test::Ended end = program_->wait();
+    CHECK(std::chrono::steady_clock::now() - begin < end_limit + 2s);  // 2 s: the scene's timeouts
+    CHECK(test::children_of(program_->pid()).empty());
+    for (const auto& child : children_) CHECK_FALSE(test::exists(child.pid));
+    CHECK(segments() == before_);
+    return end;
+  }
+  std::set<std::string> before_ = segments();
+
+ private:
+  test::TemporaryFolder folder_;
+  std::optional<test::Program> program_;
+  std::vector<test::ChildProcess> children_;
+};
+
+constexpr int transport = 3, config = 2, numerical = 4, interrupted = 5;
+
+}  // namespace
+
+TEST_CASE(
+    "a solver killed from outside is named with the window and what was waited for, and the other one ends") {
+  const std::string victim = GENERATE("structure", "particles");
+  Run run({});
+  run.wait_for_rows();
+  kill(run.child(victim), SIGKILL);
+  const auto end = run.ended();
+  CHECK(end.code == transport);
+  CHECK_THAT(end.output, Contains(victim + " (dummy_" + victim + ", pid ") &&
+                             Contains("was killed by signal 9 (SIGKILL)") && Contains("in window "));
+  CHECK_THAT(run.summary(), Contains("\"status\": \"failed\"") && Contains("SIGKILL"));
+}
+
+TEST_CASE("a solver that leaves in the middle of a run is named with its exit code") {
+  Run run({.structure = "exit"});
+  const auto end = run.ended();
+  CHECK(end.code == transport);
+  CHECK_THAT(
+      end.output,
+      Contains("structure (dummy_structure, pid ") &&
+          Contains(
+              "ended with exit code 7 while the coupler waited for the answer to 'advance' in window 20"));
+}
+
+TEST_CASE("a solver that ends before it joins is named with its exit code") {
+  Run run({.particles = "exit", .at = -2});
+  const auto end = run.ended();
+  CHECK(end.code == transport);
+  CHECK_THAT(end.output, Contains("particles (dummy_particles, pid ") && Contains("ended with exit code 7"));
+}
+
+TEST_CASE("a solver that never joins is named after the join timeout and killed") {
+  Run run({.structure = "asleep", .at = -2, .coupling = "join_timeout: 0.5 s"});
+  const auto end = run.ended();
+  CHECK(end.code == transport);
+  CHECK_THAT(end.output, Contains("structure (dummy_structure, pid ") &&
+                             Contains("gave no answer for 0.5 s") && Contains("waited for it to join"));
+}
+
+TEST_CASE("a solver that stops answering is named as hanging after the timeout, be it stopped or busy") {
+  const std::string how = GENERATE("stopped", "busy");
+  Run run({.structure = how, .coupling = "timeout: 0.5 s"});
+  const auto end = run.ended();
+  CHECK(end.code == transport);
+  CHECK_THAT(end.output, Contains("structure (dummy_structure, pid ") &&
+                             Contains("gave no answer for 0.5 s (hangs; its process ") &&
+                             Contains(how == "busy" ? "process runs" : "process is stopped") &&
+                             Contains("in window 20"));
+}
+
+TEST_CASE("a solver that never introduces itself is named as hanging") {
+  Run run({.particles = "asleep", .at = -1, .coupling = "timeout: 0.5 s"});
+  const auto end = run.ended();
+  CHECK(end.code == transport);
+  CHECK_THAT(end.output, Contains("particles") && Contains("gave no answer for 0.5 s") &&
+                             Contains("ask for its boundary"));
+}
+
+TEST_CASE("what a solver throws is said once, with its kind's exit code") {
+  SECTION("any error") {
+    Run run({.structure = "throws"});
+    const auto end = run.ended();
+    CHECK(end.code == transport);
+    CHECK_THAT(end.output, Contains("gave up (the matrix is singular)") && Contains("in window 20"));
+  }
+  SECTION("a numerical error") {
+    Run run({.structure = "numerical"});
+    const auto end = run.ended();
+    CHECK(end.code == numerical);
+    CHECK_THAT(end.output, Contains("displacement is not finite at step 20, time 0.02 s: node 0"));
+  }
+  SECTION("a complaint about the scene, from both sides at once") {
+    Run run({.structure = "refuses", .particles = "refuses", .at = -1});
+    const auto end = run.ended();
+    CHECK(end.code == config);
+    CHECK_THAT(end.output, Contains("scene.yaml:3:1: structure: no such material"));
+    CHECK(end.output.find("no such material") == end.output.rfind("no such material"));
+  }
+}
+
+TEST_CASE("when the coupler is killed, its solvers say so and end, whatever they do") {
+  const std::string how = GENERATE("none", "stopped", "busy");
+  Run run({.structure = how, .at = 500, .coupling = "timeout: 600 s"});
+  run.wait_for_rows();
+  if (how != "none") std::this_thread::sleep_for(2500ms);  // window 500 is reached: each takes at least 2 ms
+  run.program().signal(SIGKILL);
+  CHECK(run.program().wait().code == -1);
+  const auto deadline = std::chrono::steady_clock::now() + end_limit;
+  for (const auto& child : run.children()) {
+    while (test::exists(child.pid) && std::chrono::steady_clock::now() < deadline)
+      std::this_thread::sleep_for(10ms);
+    CHECK_FALSE(test::exists(child.pid));
+  }
+  CHECK_THAT(run.output(), Contains("the coupler (pid " + std::to_string(run.program().pid()) + ") died"));
+  CHECK(segments() == run.before_);
+  CHECK_THAT(run.summary(), Contains("\"status\": \"running\""));
+  CHECK(run.rows() >= 5);
+}
+
+TEST_CASE("Ctrl-C and SIGTERM end a run with everything written") {
+  const int number = GENERATE(SIGINT, SIGTERM);
+  Run run({});
+  run.wait_for_rows();
+  run.program().signal(number);
+  const auto end = run.ended();
+  CHECK(end.code == interrupted);
+  CHECK_THAT(run.summary(), Contains("\"status\": \"interrupted\""));
+}
+
+TEST_CASE("Ctrl-C before the solvers have joined ends the run") {
+  Run run({.structure = "asleep", .at = -2, .coupling = "join_timeout: 600 s"});
+  std::this_thread::sleep_for(300ms);
+  run.program().signal(SIGINT);
+  CHECK(run.ended().code == interrupted);
+}

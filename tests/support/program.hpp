@@ -1,0 +1,55 @@
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+/// Programs started by a test, as a user would start them.
+namespace talus::test {
+
+struct Ended {
+  int code = 0;        ///< exit code; -1 where a signal ended it
+  std::string output;  ///< standard output and standard error
+};
+
+/// A program in a process group of its own, its output in a file.
+class Program {
+ public:
+  Program(const std::vector<std::string>& command, const std::filesystem::path& output);
+  ~Program();  ///< kills what still runs of its group
+  Program(const Program&) = delete;
+
+  int pid() const { return pid_; }
+  /// Waits for its end. Fails the test after `limit`.
+  Ended wait(std::chrono::seconds limit = std::chrono::seconds(30));
+  /// Sends a signal to the program alone.
+  void signal(int number) const;
+
+ private:
+  int pid_ = -1;
+  std::filesystem::path output_;
+};
+
+/// Process ids of the children of a process, with the name of each one's program.
+struct ChildProcess {
+  int pid = 0;
+  std::string name;
+};
+std::vector<ChildProcess> children_of(int pid);
+bool exists(int pid);
+
+std::string text_of(const std::filesystem::path& file);
+
+/// A folder that is empty at the start and gone at the end.
+class TemporaryFolder {
+ public:
+  TemporaryFolder();
+  ~TemporaryFolder();
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace talus::test
