@@ -215,8 +215,8 @@ void SceneFile::set(const std::string& key_path, const std::string& value) {
       throw ConfigError(fmt::format("{}: '{}' stands in no map", key_path, steps[i]));
     SceneEntry* entry = node->find(steps[i]);
     if (!entry)
-      entry = &node->entries.emplace_back(SceneEntry{
-          steps[i], replacement.place, rank, {.kind = SceneNode::Kind::map, .place = replacement.place}});
+      entry = &node->entries.emplace_back(
+          SceneEntry{steps[i], replacement.place, rank, {SceneNode::Kind::map, replacement.place}});
     entry->rank = rank;
     node = &entry->value;
   }
@@ -225,7 +225,7 @@ void SceneFile::set(const std::string& key_path, const std::string& value) {
   if (steps.back().front() == '[') {
     item_at(*node, steps.back(), key_path) = replacement;
   } else {
-    SceneNode over{.kind = SceneNode::Kind::map, .place = node->place};
+    SceneNode over(SceneNode::Kind::map, node->place);
     over.entries.push_back({steps.back(), replacement.place, rank, replacement});
     *node = overlay(std::move(*node), over, rank);
   }

@@ -13,6 +13,9 @@ std::string text(const Place& place) {
   return place.line > 0 ? fmt::format("{}:{}", file, place.line) : file;
 }
 
+SceneNode::SceneNode(Kind a_kind, Place a_place, std::string a_scalar)
+    : kind(a_kind), place(std::move(a_place)), scalar(std::move(a_scalar)) {}
+
 const SceneEntry* SceneNode::find(const std::string& key) const {
   const auto found =
       std::find_if(entries.begin(), entries.end(), [&](const auto& e) { return e.key == key; });
@@ -54,7 +57,8 @@ Complaint complaint(const Place& place, const std::string& key_path, const std::
 }
 
 SceneNode overlay(SceneNode base, const SceneNode& over, int rank) {
-  if (base.kind != SceneNode::Kind::map || over.kind != SceneNode::Kind::map) base = {.kind = over.kind};
+  if (base.kind != SceneNode::Kind::map || over.kind != SceneNode::Kind::map)
+    base = SceneNode(over.kind, over.place);
   base.place = over.place;
   base.scalar = over.scalar;
   base.items = over.items;

@@ -23,11 +23,15 @@ struct SceneEntry;
 
 struct SceneNode {
   enum class Kind { null, scalar, list, map };
+
+  SceneNode() = default;
+  SceneNode(Kind a_kind, Place a_place, std::string a_scalar = {});
+
   Kind kind = Kind::null;
-  Place place = {};
-  std::string scalar = {};
-  std::vector<SceneNode> items = {};     ///< of a list
-  std::vector<SceneEntry> entries = {};  ///< of a map, in the order of the file
+  Place place;
+  std::string scalar;
+  std::vector<SceneNode> items;     ///< of a list
+  std::vector<SceneEntry> entries;  ///< of a map, in the order of the file
 
   const SceneEntry* find(const std::string& key) const;
   SceneEntry* find(const std::string& key);

@@ -40,15 +40,14 @@ class TreeBuilder final : public YAML::EventHandler {
     if (root_) throw Stop{place(mark), "a second YAML document starts here; a scene is one document"};
   }
   void OnDocumentEnd() override {}
-  void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override { add({.place = place(mark)}, anchor); }
+  void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override {
+    add({SceneNode::Kind::null, place(mark)}, anchor);
+  }
   void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
                 const std::string& value) override {
     refuse_tag(mark, tag);
     const bool null = tag != "!" && (value == "~" || value == "null" || value.empty());
-    add({.kind = null ? SceneNode::Kind::null : SceneNode::Kind::scalar,
-         .place = place(mark),
-         .scalar = value},
-        anchor);
+    add({null ? SceneNode::Kind::null : SceneNode::Kind::scalar, place(mark), value}, anchor);
   }
   void OnSequenceStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
                        YAML::EmitterStyle::value) override {
@@ -105,8 +104,7 @@ class TreeBuilder final : public YAML::EventHandler {
     if (!open_.empty() && open_.back().node.kind == SceneNode::Kind::map && !open_.back().key)
       throw Stop{where, "a key must be a word, not a list or a map"};
     count(1, where);
-    open_.push_back(
-        {.node = {.kind = kind, .place = where}, .anchor = anchor, .count_before = count_ - 1, .key = {}});
+    open_.push_back({.node = {kind, where}, .anchor = anchor, .count_before = count_ - 1, .key = {}});
   }
   void close() {
     Open done = std::move(open_.back());
