@@ -33,31 +33,33 @@ Boundary::Boundary(const mesh::Surface& surface, std::span<const Index> material
 }
 
 void Boundary::move(const Motion& motion, double fraction) noexcept {
+  const bool starts = motion.end_displacement.empty();
   const auto between = [&](std::span<const double> start, std::span<const double> end, std::size_t i) {
-    return start[i] + fraction * (end[i] - start[i]);
+    return starts ? start[i] : start[i] + fraction * (end[i] - start[i]);
   };
-  for (std::size_t i = 0; i < position_.size(); ++i) {
+  const std::size_t count = motion.start_displacement.size() / 3;
+  for (std::size_t i = 0; i < count; ++i) {
     const auto displacement = [&](int k) {
       return between(motion.start_displacement, motion.end_displacement, 3 * i + k);
     };
-    const auto velocity = [&](int k) {
-      return between(motion.start_velocity, motion.end_velocity, 3 * i + k);
-    };
-    position_[i] = row(triple<double>(reference_[i]) +
-                       Triple<double>{displacement(0), displacement(1), displacement(2)});
-    velocity_[i] = row({velocity(0), velocity(1), velocity(2)});
+    const auto velocity = [&](int k) { return between(motion.start_velocity, motion.end_velocity, 3 * i + k); };
+    const std::size_t node = i + motion.first_node;
+    const Triple<double> moved{displacement(0), displacement(1), displacement(2)};
+    position_[node] = row(triple<double>(reference_[node]) + moved);
+    velocity_[node] = row({velocity(0), velocity(1), velocity(2)});
   }
 }
 
-void Boundary::set_velocity(Index part, const Triple<double>& velocity) noexcept {
-  drifts_ = true;
-  for (std::size_t i = 0; i < velocity_.size(); ++i)
-    if (part_of_node_[i] == part) velocity_[i] = row(velocity);
+void Boundary::set_velocity(Index part, const Triple<double>& velocity) {
+  for (Index i = 0; i < node_count(); ++i) {
+    if (part_of_node_[i] != part) continue;
+    velocity_[i] = row(velocity);
+    drifting_.push_back(i);
+  }
 }
 
 void Boundary::drift(double time) noexcept {
-  if (!drifts_) return;
-  for (std::size_t i = 0; i < position_.size(); ++i)
+  for (Index i : drifting_)
     position_[i] = row(triple<double>(reference_[i]) + time * triple<double>(velocity_[i]));
 }
 

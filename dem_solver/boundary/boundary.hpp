@@ -38,15 +38,16 @@ class Boundary {
   std::span<const Row> velocity() const noexcept { return velocity_; }
   std::span<const Row> reaction() const noexcept { return reaction_; }
 
-  /// Displacement from the reference state and velocity of all nodes at a fraction between two states, linear
-  /// in between; 3 a node.
+  /// Displacement from the reference state and velocity at two times, 3 values a node, of the nodes from `first_node` on.
   struct Motion {
-    std::span<const double> start_displacement, start_velocity, end_displacement, end_velocity;
+    std::span<const double> start_displacement, start_velocity;
+    std::span<const double> end_displacement, end_velocity;  ///< empty: only the start is known
+    Index first_node = 0;
   };
+  /// Sets the nodes to the state at a fraction of the way from start to end. @pre fraction == 0 where the end is empty
   void move(const Motion& motion, double fraction) noexcept;
-  /// Prescribed motion: every node of a part keeps a velocity; positions follow from the time since the
-  /// reference state.
-  void set_velocity(Index part, const Triple<double>& velocity) noexcept;
+  /// Prescribed motion: every node of a part keeps a velocity; positions follow from the time since the reference state.
+  void set_velocity(Index part, const Triple<double>& velocity);
   void drift(double time) noexcept;
 
   void clear_reactions() noexcept;
@@ -75,7 +76,7 @@ class Boundary {
   std::vector<std::string> part_names_;
   std::vector<Index> part_of_node_;
   std::vector<Row> reference_, position_, velocity_, reaction_;
-  bool drifts_ = false;
+  std::vector<Index> drifting_;  ///< nodes of prescribed velocity
 };
 
 }  // namespace talus::dem

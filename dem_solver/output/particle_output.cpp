@@ -1,0 +1,129 @@
+#include "dem_solver/output/particle_output.hpp"
+
+#include <numeric>
+
+namespace talus::dem {
+
+using core::FieldLocation;
+using core::LedgerKind;
+
+ParticleOutput::ParticleOutput(const ParticleSolver& solver, std::vector<std::pair<std::string, Index>> named)
+    : solver_(solver), named_(std::move(named)) {
+  describe_probes();
+  if (solver_.law().ledger) describe_ledger();
+  describe_particles();
+  if (!solver_.boundary().empty()) describe_boundary();
+}
+
+void ParticleOutput::describe_probes() {
+  const auto add_vector = [this](const std::string& name, const std::string& unit) {
+    for (const char* axis : {"_x_", "_y_", "_z_"}) description_.probes.push_back({name + axis + unit});
+  };
+  for (const auto& [name, id] : named_) {
+    add_vector(name + ".position", "m");
+    add_vector(name + ".velocity", "m_per_s");
+    if (solver_.spheres().rotates()) add_vector(name + ".spin", "rad_per_s");
+    add_vector(name + ".contact_force", "N");
+    description_.probes.push_back({name + ".kinetic_energy_J"});
+  }
+}
+
+void ParticleOutput::describe_ledger() {
+  description_.ledger = {{"particles.kinetic_J", LedgerKind::stored},
+                         {"particles.kinetic_rotation_J", LedgerKind::stored},
+                         {"contacts.elastic_J", LedgerKind::stored},
+                         {"contacts.damping_J", LedgerKind::dissipated},
+                         {"contacts.friction_J", LedgerKind::dissipated},
+                         {"particles.gravity_J", LedgerKind::supplied},
+                         {"particles.boundary_work_J", LedgerKind::supplied}};
+}
+
+void ParticleOutput::describe_particles() {
+  core::GroupDescription particles{.name = "particles",
+                                   .kind = core::CellKind::vertex,
+                                   .nodes = solver_.spheres().size(),
+                                   .cells = {},
+                                   .fields = {{"radius", "m", 1, FieldLocation::node}, {"velocity", "m/s", 3, FieldLocation::node}}};
+  particles.cells.resize(static_cast<std::size_t>(particles.nodes));
+  std::iota(particles.cells.begin(), particles.cells.end(), 0);
+  if (solver_.spheres().rotates()) particles.fields.push_back({"spin", "rad/s", 3, FieldLocation::node});
+  description_.groups.push_back(std::move(particles));
+  groups_.push_back(Group::particles);
+}
+
+void ParticleOutput::describe_boundary() {
+  core::GroupDescription wires{.name = "boundary_wires", .kind = core::CellKind::segment, .nodes = solver_.boundary().node_count(), .cells = {}, .fields = {{"contact_force", "N", 3, FieldLocation::node}}};
+  core::GroupDescription faces = wires;
+  faces.name = "boundary_faces";
+  faces.kind = core::CellKind::triangle;
+  for (const Feature& f : solver_.boundary().features()) {
+    auto& cells = f.is_segment() ? wires.cells : faces.cells;
+    cells.insert(cells.end(), f.nodes.begin(), f.nodes.end() - (f.is_segment() ? 1 : 0));
+  }
+  if (!wires.cells.empty()) {
+    description_.groups.push_back(std::move(wires));
+    groups_.push_back(Group::wires);
+  }
+  if (!faces.cells.empty()) {
+    description_.groups.push_back(std::move(faces));
+    groups_.push_back(Group::faces);
+  }
+}
+
+void ParticleOutput::fill_probes(std::span<double> values) const {
+  auto next = values.begin();
+  const auto put = [&next](const Row& r) {
+    for (double component : {r.x, r.y, r.z}) *next++ = component;
+  };
+  const Spheres& s = solver_.spheres();
+  for (const auto& [name, id] : named_) {
+    const Index i = solver_.place(id);
+    put(s.position[i]);
+    put(s.velocity[i]);
+    if (s.rotates()) put(s.spin[i]);
+    put(s.force[i]);
+    *next++ = 0.5 * s.velocity[i].w * dot(triple<double>(s.velocity[i]), triple<double>(s.velocity[i]));
+  }
+}
+
+void ParticleOutput::fill_ledger(std::span<double> joules) const {
+  if (joules.empty()) return;
+  const ParticleLedger l = solver_.ledger();
+  const double lines[] = {l.kinetic, l.rotation, l.elastic, l.damping, l.friction, l.gravity, l.boundary};
+  std::ranges::copy(lines, joules.begin());
+}
+
+namespace {
+void put_rows(std::span<const Row> rows, std::span<double> values) {
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    values[3 * i] = rows[i].x;
+    values[3 * i + 1] = rows[i].y;
+    values[3 * i + 2] = rows[i].z;
+  }
+}
+
+/// In the order the spheres were added, whatever the solver's own order is.
+void put_by_id(const Spheres& spheres, std::span<const Row> rows, std::span<double> values) {
+  for (Index i = 0; i < spheres.size(); ++i) {
+    double* to = values.data() + 3 * static_cast<std::size_t>(spheres.id[i]);
+    to[0] = rows[i].x;
+    to[1] = rows[i].y;
+    to[2] = rows[i].z;
+  }
+}
+}  // namespace
+
+void ParticleOutput::fill_positions(std::size_t group, std::span<double> positions) const {
+  if (groups_[group] == Group::particles) put_by_id(solver_.spheres(), solver_.spheres().position, positions);
+  else put_rows(solver_.boundary().position(), positions);
+}
+
+void ParticleOutput::fill_field(std::size_t group, std::size_t field, std::span<double> values) const {
+  const Spheres& s = solver_.spheres();
+  if (groups_[group] != Group::particles) return put_rows(solver_.boundary().reaction(), values);
+  if (field == 1) return put_by_id(s, s.velocity, values);
+  if (field == 2) return put_by_id(s, s.spin, values);
+  for (Index i = 0; i < s.size(); ++i) values[s.id[i]] = s.position[i].w;
+}
+
+}  // namespace talus::dem

@@ -1,0 +1,140 @@
+#include "dem_solver/scene/build_model.hpp"
+
+#include <algorithm>
+#include <numbers>
+
+#include "core/errors.hpp"
+#include "dem_solver/scene/scene_rules.hpp"
+
+namespace talus::dem {
+
+namespace {
+
+Triple<double> triple_of(const core::Vector3& v) { return {v.x(), v.y(), v.z()}; }
+
+Material material_of(const std::string& name, const MaterialScene& scene) {
+  return {.name = name,
+          .density = scene.density.value_or(0),
+          .youngs_modulus = scene.youngs_modulus,
+          .poissons_ratio = scene.poissons_ratio};
+}
+
+PairParameters normal_parameters(const HertzScene& law, const EffectiveModuli& moduli) {
+  return pair_parameters(HertzContact{law.restitution}, moduli);
+}
+PairParameters normal_parameters(const LinearScene& law, const EffectiveModuli&) {
+  return pair_parameters(LinearContact{law.stiffness, law.tangential_ratio, law.restitution});
+}
+
+RollingCoefficients rolling_of(const ConstantTorqueScene& rolling) { return {.friction = rolling.coefficient}; }
+RollingCoefficients rolling_of(const ElasticPlasticScene& rolling) {
+  return {.friction = rolling.coefficient, .damping = rolling.damping};
+}
+
+PairParameters parameters_of(const ContactScene& contact, const EffectiveModuli& moduli) {
+  PairParameters p = std::visit([&](const auto& law) { return normal_parameters(law, moduli); }, contact.normal);
+  if (contact.friction) {
+    const FrictionScene& f = *contact.friction;
+    const double constant = f.coefficient.value_or(0);
+    set_friction(p, {.at_rest = f.at_rest.value_or(constant),
+                     .sliding = f.sliding.value_or(constant),
+                     .decay_speed = f.decay_speed.value_or(0)});
+  }
+  if (contact.rolling)
+    set_rolling(p, std::visit([](const auto& kind) { return rolling_of(kind); }, contact.rolling->kind));
+  return p;
+}
+
+PairTable pair_table(const ParticlesScene& particles) {
+  PairTable table(static_cast<Index>(particles.materials.size()));
+  std::vector<Material> materials;
+  for (const auto& [name, material] : particles.materials) materials.push_back(material_of(name, material));
+  for (const ContactScene& contact : particles.contacts) {
+    const auto a = material_index(particles, contact.between[0]), b = material_index(particles, contact.between[1]);
+    table.set(static_cast<Index>(a), static_cast<Index>(b), parameters_of(contact, effective_moduli(materials[a], materials[b])));
+  }
+  return table;
+}
+
+SphereInput sphere_of(const ParticlesScene& particles, const SphereScene& scene) {
+  const auto material = material_index(particles, scene.material);
+  const double volume = 4.0 / 3 * std::numbers::pi * scene.radius * scene.radius * scene.radius;
+  return {.position = triple_of(scene.at),
+          .velocity = triple_of(scene.velocity),
+          .spin = triple_of(scene.spin),
+          .radius = scene.radius,
+          .mass = volume * particles.materials[material].second.density.value(),
+          .material = static_cast<Index>(material)};
+}
+
+/// A boundary that names no material gets the only one there is for it.
+std::string boundary_material(const ParticlesScene& particles, const mesh::SurfacePart& part) {
+  if (!part.material.empty()) return part.material;
+  if (particles.materials.size() == 1) return particles.materials.front().first;
+  throw core::ConfigError("the boundary `" + part.name + "` names no material, and particles.materials has several");
+}
+
+std::vector<Index> materials_of_parts(const ParticlesScene& particles, const mesh::Surface& surface) {
+  std::vector<Index> materials;
+  for (const mesh::SurfacePart& part : surface.parts) {
+    const std::string name = boundary_material(particles, part);
+    const auto index = material_index(particles, name);
+    if (index < 0) throw core::ConfigError("the boundary `" + part.name + "`: there is no material `" + name + "` in particles.materials");
+    for (const auto& [sphere_name, sphere] : particles.spheres)
+      if (find_contact(particles, sphere.material, name) == nullptr)
+        throw core::ConfigError(missing_contact_message(sphere.material, name));
+    materials.push_back(static_cast<Index>(index));
+  }
+  return materials;
+}
+
+LawChoice::FrictionKind friction_kind(const ParticlesScene& particles) {
+  auto kind = LawChoice::FrictionKind::none;
+  for (const ContactScene& contact : particles.contacts) {
+    if (!contact.friction) continue;
+    if (contact.friction->decay_speed) return LawChoice::FrictionKind::falling;
+    kind = LawChoice::FrictionKind::constant;
+  }
+  return kind;
+}
+
+LawChoice::Rolling rolling_kind(const ParticlesScene& particles) {
+  for (const ContactScene& contact : particles.contacts) {
+    if (!contact.rolling) continue;
+    return std::holds_alternative<ConstantTorqueScene>(contact.rolling->kind) ? LawChoice::Rolling::constant_torque
+                                                                              : LawChoice::Rolling::elastic_plastic;
+  }
+  return LawChoice::Rolling::none;
+}
+
+}  // namespace
+
+LawChoice law_of(const ParticlesScene& particles, const BuildContext& context) {
+  const bool linear = !particles.contacts.empty() && std::holds_alternative<LinearScene>(particles.contacts.front().normal);
+  return {.normal = linear ? LawChoice::Normal::linear : LawChoice::Normal::hertz,
+          .friction = friction_kind(particles),
+          .rolling = rolling_kind(particles),
+          .ledger = context.ledger};
+}
+
+ParticleModel build_model(const ParticlesScene& particles, const mesh::Surface& surface, const BuildContext& context) {
+  ParticleModel model;
+  for (const auto& [name, sphere] : particles.spheres) model.spheres.push_back(sphere_of(particles, sphere));
+  for (const auto& [name, plane] : particles.planes)
+    model.planes.push_back({.name = name,
+                            .point = triple_of(plane.point),
+                            .normal = triple_of(plane.normal.normalized()),
+                            .material = static_cast<Index>(material_index(particles, plane.material))});
+  if (!surface.parts.empty()) model.boundary = Boundary(surface, materials_of_parts(particles, surface));
+  for (std::size_t k = 0; k < particles.boundaries.size() && k < surface.parts.size(); ++k)
+    if (particles.boundaries[k].second.velocity)
+      model.boundary.set_velocity(static_cast<Index>(k), triple_of(*particles.boundaries[k].second.velocity));
+  model.pairs = pair_table(particles);
+  model.law = law_of(particles, context);
+  if (particles.gravity) model.gravity = triple_of(*particles.gravity);
+  model.step = context.step;
+  model.threads = context.threads;
+  return model;
+}
+
+}  // namespace talus::dem

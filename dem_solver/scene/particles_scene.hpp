@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "dem_solver/scene/boundary_scene.hpp"
+#include "dem_solver/scene/contact_scene.hpp"
+
+/// The section `particles` of a scene.
+namespace talus::dem {
+
+struct SphereScene {
+  std::string material;
+  double radius = 0;                               ///< m
+  core::Vector3 at = core::Vector3::Zero();        ///< m
+  core::Vector3 velocity = core::Vector3::Zero();  ///< m/s
+  core::Vector3 spin = core::Vector3::Zero();      ///< rad/s
+};
+void describe(core::Fields& fields, SphereScene& sphere);
+
+template <class T>
+using Named = std::vector<std::pair<std::string, T>>;
+
+struct ParticlesScene {
+  std::optional<std::string> solver;
+  std::optional<core::Vector3> gravity;  ///< m/s^2
+  Named<MaterialScene> materials;
+  std::vector<ContactScene> contacts;
+  Named<SphereScene> spheres;
+  Named<PlaneScene> planes;
+  Named<BoundaryScene> boundaries;
+  std::optional<double> step;  ///< s
+  std::int64_t threads = 1;
+};
+void describe(core::Fields& fields, ParticlesScene& particles);
+
+}  // namespace talus::dem

@@ -1,0 +1,107 @@
+#include "dem_solver/scene/scene_rules.hpp"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+namespace talus::dem {
+
+std::int64_t material_index(const ParticlesScene& particles, const std::string& name) {
+  const auto found = std::ranges::find(particles.materials, name, &std::pair<std::string, MaterialScene>::first);
+  return found == particles.materials.end() ? -1 : found - particles.materials.begin();
+}
+
+const ContactScene* find_contact(const ParticlesScene& particles, const std::string& a, const std::string& b) {
+  for (const ContactScene& contact : particles.contacts) {
+    if (contact.between.size() != 2) continue;
+    const auto &x = contact.between[0], &y = contact.between[1];
+    if ((x == a && y == b) || (x == b && y == a)) return &contact;
+  }
+  return nullptr;
+}
+
+std::string missing_contact_message(const std::string& a, const std::string& b) {
+  return "no contact between `" + a + "` and `" + b + "`, which can meet: add an entry with `between: [" + a + ", " + b +
+         "]` to particles.contacts";
+}
+
+namespace {
+
+std::string known_materials(const ParticlesScene& particles) {
+  std::string names;
+  for (const auto& [name, material] : particles.materials) names += (names.empty() ? "" : ", ") + name;
+  return names;
+}
+
+/// Material names as they are used, each checked once.
+class References {
+ public:
+  References(core::Fields& fields, const ParticlesScene& particles) : fields_(fields), particles_(particles) {}
+
+  void material(const char* key, const std::string& user, const std::string& name) {
+    const bool known = material_index(particles_, name) >= 0;
+    fields_.rule(known, key, user + ": there is no material `" + name + "`; known: " + known_materials(particles_));
+  }
+
+ private:
+  core::Fields& fields_;
+  const ParticlesScene& particles_;
+};
+
+void check_names(core::Fields& fields, const ParticlesScene& particles) {
+  References check(fields, particles);
+  for (const auto& [name, sphere] : particles.spheres) {
+    check.material("spheres", name, sphere.material);
+    const auto index = material_index(particles, sphere.material);
+    fields.rule(index < 0 || particles.materials[index].second.density, "spheres",
+                name + ": material `" + sphere.material + "` has no density, which its mass needs");
+  }
+  for (const auto& [name, plane] : particles.planes) check.material("planes", name, plane.material);
+  for (const auto& [name, boundary] : particles.boundaries) check.material("boundaries", name, boundary.material);
+  for (const ContactScene& contact : particles.contacts)
+    for (const std::string& name : contact.between) check.material("contacts", "between", name);
+}
+
+void check_pairs(core::Fields& fields, const ParticlesScene& particles) {
+  std::map<std::string, int> spheres;
+  std::set<std::string> walls;
+  for (const auto& [name, sphere] : particles.spheres) ++spheres[sphere.material];
+  for (const auto& [name, plane] : particles.planes) walls.insert(plane.material);
+  for (const auto& [name, boundary] : particles.boundaries) walls.insert(boundary.material);
+  const auto need = [&](const std::string& a, const std::string& b) {
+    fields.rule(find_contact(particles, a, b) != nullptr, "contacts", missing_contact_message(a, b));
+  };
+  for (const auto& [a, count] : spheres) {
+    for (const auto& [b, other_count] : spheres)
+      if (a < b || (a == b && count > 1)) need(a, b);
+    for (const std::string& wall : walls) need(a, wall);
+  }
+}
+
+void check_laws(core::Fields& fields, const ParticlesScene& particles) {
+  std::set<std::pair<std::string, std::string>> seen;
+  for (const ContactScene& contact : particles.contacts) {
+    const ContactScene& first = particles.contacts.front();
+    fields.rule(contact.normal.index() == first.normal.index(), "contacts",
+                "all contacts of a scene need the same normal law, `hertz` or `linear`");
+    fields.rule(!contact.rolling || std::ranges::all_of(particles.contacts,
+                                                        [&](const ContactScene& other) {
+                                                          return !other.rolling || other.rolling->kind.index() == contact.rolling->kind.index();
+                                                        }),
+                "contacts", "all contacts of a scene need the same kind of rolling resistance");
+    if (contact.between.size() != 2) continue;
+    const auto pair = std::minmax(contact.between[0], contact.between[1]);
+    fields.rule(seen.insert({pair.first, pair.second}).second, "contacts",
+                "there are two entries between `" + pair.first + "` and `" + pair.second + "`");
+  }
+}
+
+}  // namespace
+
+void check_references(core::Fields& fields, const ParticlesScene& particles) {
+  check_names(fields, particles);
+  check_pairs(fields, particles);
+  check_laws(fields, particles);
+}
+
+}  // namespace talus::dem
