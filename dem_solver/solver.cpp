@@ -46,7 +46,14 @@ void ParticleSolver::step() {
   ++steps_done_;
 }
 
+void ParticleSolver::set_clock(const Clock& clock) noexcept {
+  clock_time_ = clock.time;
+  clock_steps_ = steps_done_;
+  step_ = clock.step;
+}
+
 void ParticleSolver::find_neighbours() {
+  if (spheres_.size() == 0) return;
   const double boundary_motion =
       boundary_.empty() || !listed_ ? 0 : boundary_list_.boundary_motion(boundary_);
   const auto is_used_up = [&] { return 2 * travelled_ >= skin_ || travelled_ + boundary_motion >= skin_; };

@@ -55,8 +55,15 @@ class ParticleSolver {
 
   std::int64_t steps_done() const noexcept { return steps_done_; }
   double step_length() const noexcept { return step_; }
-  double time() const noexcept { return static_cast<double>(steps_done_) * step_; }
-  void set_step(double seconds) noexcept { step_ = seconds; }
+  /// s; counted from the last set_clock(), never accumulated.
+  double time() const noexcept {
+    return clock_time_ + static_cast<double>(steps_done_ - clock_steps_) * step_;
+  }
+  struct Clock {
+    double time = 0;  ///< s; now
+    double step = 0;  ///< s; of the steps to come
+  };
+  void set_clock(const Clock& clock) noexcept;
 
   const Spheres& spheres() const noexcept { return spheres_; }
   /// Where the sphere that was added as number id stands now.
@@ -100,6 +107,8 @@ class ParticleSolver {
   double travelled_ = 0;              ///< m; no sphere has moved further since
   bool listed_ = false;
   std::int64_t steps_done_ = 0;
+  double clock_time_ = 0;
+  std::int64_t clock_steps_ = 0;
   std::int64_t searches_ = 0;
   ContactWork work_;
   double gravity_level_at_start_ = 0;

@@ -42,7 +42,9 @@ void Boundary::move(const Motion& motion, double fraction) noexcept {
     const auto displacement = [&](int k) {
       return between(motion.start_displacement, motion.end_displacement, 3 * i + k);
     };
-    const auto velocity = [&](int k) { return between(motion.start_velocity, motion.end_velocity, 3 * i + k); };
+    const auto velocity = [&](int k) {
+      return between(motion.start_velocity, motion.end_velocity, 3 * i + k);
+    };
     const std::size_t node = i + motion.first_node;
     const Triple<double> moved{displacement(0), displacement(1), displacement(2)};
     position_[node] = row(triple<double>(reference_[node]) + moved);

@@ -38,15 +38,18 @@ class Boundary {
   std::span<const Row> velocity() const noexcept { return velocity_; }
   std::span<const Row> reaction() const noexcept { return reaction_; }
 
-  /// Displacement from the reference state and velocity at two times, 3 values a node, of the nodes from `first_node` on.
+  /// Displacement from the reference state and velocity at two times, 3 values a node, of the nodes from
+  /// `first_node` on.
   struct Motion {
     std::span<const double> start_displacement, start_velocity;
     std::span<const double> end_displacement, end_velocity;  ///< empty: only the start is known
     Index first_node = 0;
   };
-  /// Sets the nodes to the state at a fraction of the way from start to end. @pre fraction == 0 where the end is empty
+  /// Sets the nodes to the state at a fraction of the way from start to end. @pre fraction == 0 where the end
+  /// is empty
   void move(const Motion& motion, double fraction) noexcept;
-  /// Prescribed motion: every node of a part keeps a velocity; positions follow from the time since the reference state.
+  /// Prescribed motion: every node of a part keeps a velocity; positions follow from the time since the
+  /// reference state.
   void set_velocity(Index part, const Triple<double>& velocity);
   void drift(double time) noexcept;
 

@@ -39,11 +39,12 @@ void ParticleOutput::describe_ledger() {
 }
 
 void ParticleOutput::describe_particles() {
-  core::GroupDescription particles{.name = "particles",
-                                   .kind = core::CellKind::vertex,
-                                   .nodes = solver_.spheres().size(),
-                                   .cells = {},
-                                   .fields = {{"radius", "m", 1, FieldLocation::node}, {"velocity", "m/s", 3, FieldLocation::node}}};
+  core::GroupDescription particles{
+      .name = "particles",
+      .kind = core::CellKind::vertex,
+      .nodes = solver_.spheres().size(),
+      .cells = {},
+      .fields = {{"radius", "m", 1, FieldLocation::node}, {"velocity", "m/s", 3, FieldLocation::node}}};
   particles.cells.resize(static_cast<std::size_t>(particles.nodes));
   std::iota(particles.cells.begin(), particles.cells.end(), 0);
   if (solver_.spheres().rotates()) particles.fields.push_back({"spin", "rad/s", 3, FieldLocation::node});
@@ -52,7 +53,11 @@ void ParticleOutput::describe_particles() {
 }
 
 void ParticleOutput::describe_boundary() {
-  core::GroupDescription wires{.name = "boundary_wires", .kind = core::CellKind::segment, .nodes = solver_.boundary().node_count(), .cells = {}, .fields = {{"contact_force", "N", 3, FieldLocation::node}}};
+  core::GroupDescription wires{.name = "boundary_wires",
+                               .kind = core::CellKind::segment,
+                               .nodes = solver_.boundary().node_count(),
+                               .cells = {},
+                               .fields = {{"contact_force", "N", 3, FieldLocation::node}}};
   core::GroupDescription faces = wires;
   faces.name = "boundary_faces";
   faces.kind = core::CellKind::triangle;
@@ -114,8 +119,10 @@ void put_by_id(const Spheres& spheres, std::span<const Row> rows, std::span<doub
 }  // namespace
 
 void ParticleOutput::fill_positions(std::size_t group, std::span<double> positions) const {
-  if (groups_[group] == Group::particles) put_by_id(solver_.spheres(), solver_.spheres().position, positions);
-  else put_rows(solver_.boundary().position(), positions);
+  if (groups_[group] == Group::particles)
+    put_by_id(solver_.spheres(), solver_.spheres().position, positions);
+  else
+    put_rows(solver_.boundary().position(), positions);
 }
 
 void ParticleOutput::fill_field(std::size_t group, std::size_t field, std::span<double> values) const {

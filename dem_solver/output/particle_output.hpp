@@ -9,10 +9,12 @@
 
 namespace talus::dem {
 
-/// What a run of particles writes: the trajectory of each named sphere, the ledger, and fields of all particles and of the boundary.
+/// What a run of particles writes: the trajectory of each named sphere, the ledger, and fields of all
+/// particles and of the boundary.
 class ParticleOutput : public core::OutputSource {
  public:
-  /// @param named name and number of the spheres that get columns in probes.csv. @pre the solver outlives this
+  /// @param named name and number of the spheres that get columns in probes.csv. @pre the solver outlives
+  /// this
   ParticleOutput(const ParticleSolver& solver, std::vector<std::pair<std::string, Index>> named);
 
   const core::OutputDescription& description() const override { return description_; }

@@ -9,21 +9,28 @@ namespace talus::dem {
 namespace {
 
 bool all_below(const std::vector<std::int64_t>& indices, std::size_t count) {
-  return std::ranges::all_of(indices, [count](std::int64_t i) { return i >= 0 && i < static_cast<std::int64_t>(count); });
+  return std::ranges::all_of(
+      indices, [count](std::int64_t i) { return i >= 0 && i < static_cast<std::int64_t>(count); });
 }
 
 mesh::Surface surface_of(const NodesScene& nodes) {
   mesh::Surface surface;
-  for (const core::Vector3& p : nodes.positions) surface.positions.insert(surface.positions.end(), p.data(), p.data() + 3);
+  for (const core::Vector3& p : nodes.positions)
+    surface.positions.insert(surface.positions.end(), p.data(), p.data() + 3);
   const auto node = [](std::int64_t i) { return static_cast<mesh::Index>(i); };
   for (std::size_t k = 0; k + 1 < nodes.segments.size(); k += 2)
     surface.segments.push_back({node(nodes.segments[k]), node(nodes.segments[k + 1])});
   for (std::size_t k = 0; k + 2 < nodes.triangles.size(); k += 3)
-    surface.triangles.push_back({node(nodes.triangles[k]), node(nodes.triangles[k + 1]), node(nodes.triangles[k + 2])});
+    surface.triangles.push_back(
+        {node(nodes.triangles[k]), node(nodes.triangles[k + 1]), node(nodes.triangles[k + 2])});
   return surface;
 }
-mesh::Surface surface_of(const mesh::SquareNetScene& net) { return mesh::generate(net).surface; }
-mesh::Surface surface_of(const mesh::SheetScene& sheet) { return mesh::generate(sheet).surface; }
+mesh::Surface surface_of(const mesh::SquareNetScene& net) {
+  return mesh::generate(net).surface;
+}
+mesh::Surface surface_of(const mesh::SheetScene& sheet) {
+  return mesh::generate(sheet).surface;
+}
 
 /// The boundary's shape as a surface of one part.
 mesh::Surface surface_of(const std::string& name, const BoundaryScene& boundary) {
@@ -47,10 +54,12 @@ void describe(core::Fields& fields, PlaneScene& plane) {
 
 void describe(core::Fields& fields, NodesScene& nodes) {
   fields.required("positions", nodes.positions, {.unit = "m", .help = "of the nodes"});
-  fields.with_default("segments", nodes.segments, {.range = core::not_negative, .help = "wires, two node numbers each, from 0"});
+  fields.with_default("segments", nodes.segments,
+                      {.range = core::not_negative, .help = "wires, two node numbers each, from 0"});
   fields.with_default("triangles", nodes.triangles,
                       {.range = core::not_negative, .help = "faces, three node numbers each, from 0"});
-  fields.rule(!nodes.segments.empty() || !nodes.triangles.empty(), "segments", "needs `segments` or `triangles`");
+  fields.rule(!nodes.segments.empty() || !nodes.triangles.empty(), "segments",
+              "needs `segments` or `triangles`");
   fields.rule(nodes.segments.size() % 2 == 0, "segments", "needs an even number of node numbers");
   fields.rule(nodes.triangles.size() % 3 == 0, "triangles", "needs a multiple of three node numbers");
   const std::string last = "must be node numbers from 0 to " + std::to_string(nodes.positions.size() - 1);
@@ -60,8 +69,9 @@ void describe(core::Fields& fields, NodesScene& nodes) {
 
 void describe(core::Fields& fields, BoundaryScene& boundary) {
   fields.required("material", boundary.material, {.help = "contact material"});
-  fields.with_default("wire_radius", boundary.wire_radius,
-                      {.unit = "m", .range = core::not_negative, .help = "of segments; 0: their axes are touched"});
+  fields.with_default(
+      "wire_radius", boundary.wire_radius,
+      {.unit = "m", .range = core::not_negative, .help = "of segments; 0: their axes are touched"});
   fields.optional("velocity", boundary.velocity, {.unit = "m/s", .help = "constant; absent: at rest"});
   fields.one_of(boundary.shape, {{"square_net", "wires of a square net"},
                                  {"sheet", "a flat panel of triangles"},
@@ -76,7 +86,8 @@ mesh::Surface make_surface(const std::vector<std::pair<std::string, BoundaryScen
 
 void append(mesh::Surface& to, const mesh::Surface& more) {
   const mesh::Index node = to.node_count();
-  const auto segment = static_cast<mesh::Index>(to.segments.size()), triangle = static_cast<mesh::Index>(to.triangles.size());
+  const auto segment = static_cast<mesh::Index>(to.segments.size()),
+             triangle = static_cast<mesh::Index>(to.triangles.size());
   to.positions.insert(to.positions.end(), more.positions.begin(), more.positions.end());
   for (const auto& [a, b] : more.segments) to.segments.push_back({a + node, b + node});
   for (const auto& [a, b, c] : more.triangles) to.triangles.push_back({a + node, b + node, c + node});

@@ -10,7 +10,9 @@ namespace talus::dem {
 
 namespace {
 
-Triple<double> triple_of(const core::Vector3& v) { return {v.x(), v.y(), v.z()}; }
+Triple<double> triple_of(const core::Vector3& v) {
+  return {v.x(), v.y(), v.z()};
+}
 
 Material material_of(const std::string& name, const MaterialScene& scene) {
   return {.name = name,
@@ -26,13 +28,16 @@ PairParameters normal_parameters(const LinearScene& law, const EffectiveModuli&)
   return pair_parameters(LinearContact{law.stiffness, law.tangential_ratio, law.restitution});
 }
 
-RollingCoefficients rolling_of(const ConstantTorqueScene& rolling) { return {.friction = rolling.coefficient}; }
+RollingCoefficients rolling_of(const ConstantTorqueScene& rolling) {
+  return {.friction = rolling.coefficient};
+}
 RollingCoefficients rolling_of(const ElasticPlasticScene& rolling) {
   return {.friction = rolling.coefficient, .damping = rolling.damping};
 }
 
 PairParameters parameters_of(const ContactScene& contact, const EffectiveModuli& moduli) {
-  PairParameters p = std::visit([&](const auto& law) { return normal_parameters(law, moduli); }, contact.normal);
+  PairParameters p =
+      std::visit([&](const auto& law) { return normal_parameters(law, moduli); }, contact.normal);
   if (contact.friction) {
     const FrictionScene& f = *contact.friction;
     const double constant = f.coefficient.value_or(0);
@@ -47,11 +52,12 @@ PairParameters parameters_of(const ContactScene& contact, const EffectiveModuli&
 
 PairTable pair_table(const ParticlesScene& particles) {
   PairTable table(static_cast<Index>(particles.materials.size()));
-  std::vector<Material> materials;
-  for (const auto& [name, material] : particles.materials) materials.push_back(material_of(name, material));
+  const std::vector<Material> materials = materials_of(particles);
   for (const ContactScene& contact : particles.contacts) {
-    const auto a = material_index(particles, contact.between[0]), b = material_index(particles, contact.between[1]);
-    table.set(static_cast<Index>(a), static_cast<Index>(b), parameters_of(contact, effective_moduli(materials[a], materials[b])));
+    const auto a = material_index(particles, contact.between[0]),
+               b = material_index(particles, contact.between[1]);
+    table.set(static_cast<Index>(a), static_cast<Index>(b),
+              parameters_of(contact, effective_moduli(materials[a], materials[b])));
   }
   return table;
 }
@@ -71,7 +77,8 @@ SphereInput sphere_of(const ParticlesScene& particles, const SphereScene& scene)
 std::string boundary_material(const ParticlesScene& particles, const mesh::SurfacePart& part) {
   if (!part.material.empty()) return part.material;
   if (particles.materials.size() == 1) return particles.materials.front().first;
-  throw core::ConfigError("the boundary `" + part.name + "` names no material, and particles.materials has several");
+  throw core::ConfigError("the boundary `" + part.name +
+                          "` names no material, and particles.materials has several");
 }
 
 std::vector<Index> materials_of_parts(const ParticlesScene& particles, const mesh::Surface& surface) {
@@ -79,7 +86,9 @@ std::vector<Index> materials_of_parts(const ParticlesScene& particles, const mes
   for (const mesh::SurfacePart& part : surface.parts) {
     const std::string name = boundary_material(particles, part);
     const auto index = material_index(particles, name);
-    if (index < 0) throw core::ConfigError("the boundary `" + part.name + "`: there is no material `" + name + "` in particles.materials");
+    if (index < 0)
+      throw core::ConfigError("the boundary `" + part.name + "`: there is no material `" + name +
+                              "` in particles.materials");
     for (const auto& [sphere_name, sphere] : particles.spheres)
       if (find_contact(particles, sphere.material, name) == nullptr)
         throw core::ConfigError(missing_contact_message(sphere.material, name));
@@ -101,23 +110,32 @@ LawChoice::FrictionKind friction_kind(const ParticlesScene& particles) {
 LawChoice::Rolling rolling_kind(const ParticlesScene& particles) {
   for (const ContactScene& contact : particles.contacts) {
     if (!contact.rolling) continue;
-    return std::holds_alternative<ConstantTorqueScene>(contact.rolling->kind) ? LawChoice::Rolling::constant_torque
-                                                                              : LawChoice::Rolling::elastic_plastic;
+    return std::holds_alternative<ConstantTorqueScene>(contact.rolling->kind)
+               ? LawChoice::Rolling::constant_torque
+               : LawChoice::Rolling::elastic_plastic;
   }
   return LawChoice::Rolling::none;
 }
 
 }  // namespace
 
+std::vector<Material> materials_of(const ParticlesScene& particles) {
+  std::vector<Material> materials;
+  for (const auto& [name, material] : particles.materials) materials.push_back(material_of(name, material));
+  return materials;
+}
+
 LawChoice law_of(const ParticlesScene& particles, const BuildContext& context) {
-  const bool linear = !particles.contacts.empty() && std::holds_alternative<LinearScene>(particles.contacts.front().normal);
+  const bool linear =
+      !particles.contacts.empty() && std::holds_alternative<LinearScene>(particles.contacts.front().normal);
   return {.normal = linear ? LawChoice::Normal::linear : LawChoice::Normal::hertz,
           .friction = friction_kind(particles),
           .rolling = rolling_kind(particles),
           .ledger = context.ledger};
 }
 
-ParticleModel build_model(const ParticlesScene& particles, const mesh::Surface& surface, const BuildContext& context) {
+ParticleModel build_model(const ParticlesScene& particles, const mesh::Surface& surface,
+                          const BuildContext& context) {
   ParticleModel model;
   for (const auto& [name, sphere] : particles.spheres) model.spheres.push_back(sphere_of(particles, sphere));
   for (const auto& [name, plane] : particles.planes)

@@ -20,8 +20,12 @@ struct BuildContext {
 /// @pre the scene was read without complaints
 LawChoice law_of(const ParticlesScene& particles, const BuildContext& context);
 
+/// In the order of the scene.
+std::vector<Material> materials_of(const ParticlesScene& particles);
+
 /// @param surface the boundary: make_surface() of the scene, or the one received from the coupler.
 /// @throws ConfigError where the boundary's material is unknown or has no contact with a sphere's.
-ParticleModel build_model(const ParticlesScene& particles, const mesh::Surface& surface, const BuildContext& context);
+ParticleModel build_model(const ParticlesScene& particles, const mesh::Surface& surface,
+                          const BuildContext& context);
 
 }  // namespace talus::dem

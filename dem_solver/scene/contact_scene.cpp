@@ -10,9 +10,13 @@ constexpr const char* restitution_help = "rebound over approach speed, exact at 
 
 void describe(core::Fields& fields, MaterialScene& material) {
   fields.optional("density", material.density,
-                  {.unit = "kg/m^3", .range = core::positive, .help = "needed for spheres and rocks; boundaries have none"});
-  fields.required("youngs_modulus", material.youngs_modulus, {.unit = "Pa", .range = core::positive, .help = "of the contact"});
-  fields.required("poissons_ratio", material.poissons_ratio, {.range = poisson_range, .help = "of the contact"});
+                  {.unit = "kg/m^3",
+                   .range = core::positive,
+                   .help = "needed for spheres and rocks; boundaries have none"});
+  fields.required("youngs_modulus", material.youngs_modulus,
+                  {.unit = "Pa", .range = core::positive, .help = "of the contact"});
+  fields.required("poissons_ratio", material.poissons_ratio,
+                  {.range = poisson_range, .help = "of the contact"});
 }
 
 void describe(core::Fields& fields, HertzScene& law) {
@@ -20,7 +24,8 @@ void describe(core::Fields& fields, HertzScene& law) {
 }
 
 void describe(core::Fields& fields, LinearScene& law) {
-  fields.required("stiffness", law.stiffness, {.unit = "N/m", .range = core::positive, .help = "normal force over overlap"});
+  fields.required("stiffness", law.stiffness,
+                  {.unit = "N/m", .range = core::positive, .help = "normal force over overlap"});
   fields.with_default("tangential_ratio", law.tangential_ratio,
                       {.range = core::positive, .help = "tangential over normal stiffness"});
   fields.required("restitution", law.restitution, {.range = restitution_range, .help = restitution_help});
@@ -31,9 +36,11 @@ void describe(core::Fields& fields, FrictionScene& friction) {
                   {.range = core::not_negative, .help = "Coulomb's coefficient, at rest and sliding alike"});
   fields.optional("at_rest", friction.at_rest,
                   {.range = core::not_negative, .help = "coefficient at rest, instead of `coefficient`"});
-  fields.optional("sliding", friction.sliding, {.range = core::not_negative, .help = "coefficient of fast sliding"});
-  fields.optional("decay_speed", friction.decay_speed,
-                  {.unit = "m/s", .range = core::positive, .help = "sliding speed at which 63 % of the fall is done"});
+  fields.optional("sliding", friction.sliding,
+                  {.range = core::not_negative, .help = "coefficient of fast sliding"});
+  fields.optional(
+      "decay_speed", friction.decay_speed,
+      {.unit = "m/s", .range = core::positive, .help = "sliding speed at which 63 % of the fall is done"});
   const bool falls = friction.at_rest && friction.sliding && friction.decay_speed;
   const bool names_falling = friction.at_rest || friction.sliding || friction.decay_speed;
   fields.rule(friction.coefficient ? !names_falling : falls, "coefficient",
@@ -46,9 +53,11 @@ void describe(core::Fields& fields, ConstantTorqueScene& rolling) {
 }
 
 void describe(core::Fields& fields, ElasticPlasticScene& rolling) {
-  fields.required("coefficient", rolling.coefficient,
-                  {.range = core::not_negative, .help = "largest torque over normal force and reduced radius"});
-  fields.with_default("damping", rolling.damping, {.range = core::not_negative, .help = "rolling damping over critical"});
+  fields.required(
+      "coefficient", rolling.coefficient,
+      {.range = core::not_negative, .help = "largest torque over normal force and reduced radius"});
+  fields.with_default("damping", rolling.damping,
+                      {.range = core::not_negative, .help = "rolling damping over critical"});
 }
 
 void describe(core::Fields& fields, RollingScene& rolling) {
@@ -59,8 +68,10 @@ void describe(core::Fields& fields, RollingScene& rolling) {
 void describe(core::Fields& fields, ContactScene& contact) {
   fields.required("between", contact.between, {.help = "the two materials, equal ones for their own kind"});
   fields.rule(contact.between.size() == 2, "between", "needs two materials");
-  fields.one_of(contact.normal, {{"hertz", "Hertz's law with constant restitution"}, {"linear", "linear spring and dashpot"}});
-  fields.section("friction", contact.friction, "Coulomb friction with a tangential spring; absent: frictionless, and nothing turns");
+  fields.one_of(contact.normal, {{"hertz", "Hertz's law with constant restitution"},
+                                 {"linear", "linear spring and dashpot"}});
+  fields.section("friction", contact.friction,
+                 "Coulomb friction with a tangential spring; absent: frictionless, and nothing turns");
   fields.section("rolling", contact.rolling, "rolling resistance; absent: none");
   fields.rule(contact.friction || !contact.rolling, "rolling", "needs `friction`, which turns the spheres");
 }

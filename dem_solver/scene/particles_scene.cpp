@@ -9,18 +9,25 @@ void describe(core::Fields& fields, SphereScene& sphere) {
   fields.required("radius", sphere.radius, {.unit = "m", .range = core::positive, .help = "of the sphere"});
   fields.required("at", sphere.at, {.unit = "m", .help = "the centre at time 0"});
   fields.with_default("velocity", sphere.velocity, {.unit = "m/s", .help = "at time 0"});
-  fields.with_default("spin", sphere.spin, {.unit = "rad/s", .help = "angular velocity at time 0; needs friction somewhere"});
+  fields.with_default("spin", sphere.spin,
+                      {.unit = "rad/s", .help = "angular velocity at time 0; needs friction somewhere"});
 }
 
 void describe(core::Fields& fields, ParticlesScene& particles) {
   fields.optional("solver", particles.solver, {.help = "program that takes this side; absent: dem_solver"});
-  fields.optional("gravity", particles.gravity, {.unit = "m/s^2", .help = "acceleration of free fall; absent: none"});
+  fields.optional("gravity", particles.gravity,
+                  {.unit = "m/s^2", .help = "acceleration of free fall; absent: none"});
   fields.map("materials", particles.materials, "contact materials, by name", 1);
-  fields.list("contacts", particles.contacts, "what happens between two materials; every pair that can meet needs an entry");
+  fields.list("contacts", particles.contacts,
+              "what happens between two materials; every pair that can meet needs an entry");
   fields.map("spheres", particles.spheres, "single spheres, by name");
   fields.map("planes", particles.planes, "infinite planes, by name");
-  fields.map("boundaries", particles.boundaries, "rigid wires and faces at rest or at constant velocity, by name");
-  fields.optional("step", particles.step, {.unit = "s", .range = core::positive, .help = "of the particles; absent: time.step"});
+  fields.map("boundaries", particles.boundaries,
+             "rigid wires and faces at rest or at constant velocity, by name");
+  fields.optional("step", particles.step,
+                  {.unit = "s", .range = core::positive, .help = "of the particles; absent: time.step"});
+  fields.choice("unstable_step", particles.unstable_step, {"refused", "allowed"},
+                "what to do with a step above a stability limit");
   fields.with_default("threads", particles.threads,
                       {.range = {.low = 1, .high = 1024}, .help = "any number gives the same bits"});
   check_references(fields, particles);

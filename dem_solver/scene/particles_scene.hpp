@@ -33,6 +33,7 @@ struct ParticlesScene {
   Named<PlaneScene> planes;
   Named<BoundaryScene> boundaries;
   std::optional<double> step;  ///< s
+  enum class UnstableStep { refused, allowed } unstable_step = UnstableStep::refused;
   std::int64_t threads = 1;
 };
 void describe(core::Fields& fields, ParticlesScene& particles);

@@ -7,11 +7,13 @@
 namespace talus::dem {
 
 std::int64_t material_index(const ParticlesScene& particles, const std::string& name) {
-  const auto found = std::ranges::find(particles.materials, name, &std::pair<std::string, MaterialScene>::first);
+  const auto found =
+      std::ranges::find(particles.materials, name, &std::pair<std::string, MaterialScene>::first);
   return found == particles.materials.end() ? -1 : found - particles.materials.begin();
 }
 
-const ContactScene* find_contact(const ParticlesScene& particles, const std::string& a, const std::string& b) {
+const ContactScene* find_contact(const ParticlesScene& particles, const std::string& a,
+                                 const std::string& b) {
   for (const ContactScene& contact : particles.contacts) {
     if (contact.between.size() != 2) continue;
     const auto &x = contact.between[0], &y = contact.between[1];
@@ -21,8 +23,8 @@ const ContactScene* find_contact(const ParticlesScene& particles, const std::str
 }
 
 std::string missing_contact_message(const std::string& a, const std::string& b) {
-  return "no contact between `" + a + "` and `" + b + "`, which can meet: add an entry with `between: [" + a + ", " + b +
-         "]` to particles.contacts";
+  return "no contact between `" + a + "` and `" + b + "`, which can meet: add an entry with `between: [" + a +
+         ", " + b + "]` to particles.contacts";
 }
 
 namespace {
@@ -36,11 +38,13 @@ std::string known_materials(const ParticlesScene& particles) {
 /// Material names as they are used, each checked once.
 class References {
  public:
-  References(core::Fields& fields, const ParticlesScene& particles) : fields_(fields), particles_(particles) {}
+  References(core::Fields& fields, const ParticlesScene& particles)
+      : fields_(fields), particles_(particles) {}
 
   void material(const char* key, const std::string& user, const std::string& name) {
     const bool known = material_index(particles_, name) >= 0;
-    fields_.rule(known, key, user + ": there is no material `" + name + "`; known: " + known_materials(particles_));
+    fields_.rule(known, key,
+                 user + ": there is no material `" + name + "`; known: " + known_materials(particles_));
   }
 
  private:
@@ -57,7 +61,8 @@ void check_names(core::Fields& fields, const ParticlesScene& particles) {
                 name + ": material `" + sphere.material + "` has no density, which its mass needs");
   }
   for (const auto& [name, plane] : particles.planes) check.material("planes", name, plane.material);
-  for (const auto& [name, boundary] : particles.boundaries) check.material("boundaries", name, boundary.material);
+  for (const auto& [name, boundary] : particles.boundaries)
+    check.material("boundaries", name, boundary.material);
   for (const ContactScene& contact : particles.contacts)
     for (const std::string& name : contact.between) check.material("contacts", "between", name);
 }
@@ -86,7 +91,9 @@ void check_laws(core::Fields& fields, const ParticlesScene& particles) {
                 "all contacts of a scene need the same normal law, `hertz` or `linear`");
     fields.rule(!contact.rolling || std::ranges::all_of(particles.contacts,
                                                         [&](const ContactScene& other) {
-                                                          return !other.rolling || other.rolling->kind.index() == contact.rolling->kind.index();
+                                                          return !other.rolling ||
+                                                                 other.rolling->kind.index() ==
+                                                                     contact.rolling->kind.index();
                                                         }),
                 "contacts", "all contacts of a scene need the same kind of rolling resistance");
     if (contact.between.size() != 2) continue;

@@ -4,7 +4,8 @@
 
 namespace talus::dem {
 
-/// Complains about names that nothing defines, pairs of materials that can meet but have no contact law, and laws that don't go together.
+/// Complains about names that nothing defines, pairs of materials that can meet but have no contact law, and
+/// laws that don't go together.
 void check_references(core::Fields& fields, const ParticlesScene& particles);
 
 /// The place of a name in `materials`, -1 where it is none.

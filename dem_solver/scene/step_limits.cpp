@@ -25,7 +25,10 @@ struct Tightest {
 };
 
 Tightest open_limit(const char* name, bool stability) {
-  return {{.name = name, .seconds = std::numeric_limits<double>::infinity(), .stability = stability, .reason = {}}};
+  return {{.name = name,
+           .seconds = std::numeric_limits<double>::infinity(),
+           .stability = stability,
+           .reason = {}}};
 }
 
 /// m; how far below a point the lowest plane or boundary node lies along gravity.
@@ -34,7 +37,8 @@ double drop_height(const ParticleModel& model, const Triple<double>& from) {
   if (g == 0) return 0;
   const Triple<double> down = (1 / g) * model.gravity;
   double drop = 0;
-  for (const Row& node : model.boundary.position()) drop = std::max(drop, dot(triple<double>(node) - from, down));
+  for (const Row& node : model.boundary.position())
+    drop = std::max(drop, dot(triple<double>(node) - from, down));
   for (const Plane& plane : model.planes) {
     const double fall = -dot(down, plane.normal);
     if (fall > 1e-3) drop = std::max(drop, dot(from - plane.point, plane.normal) / fall);
@@ -42,7 +46,8 @@ double drop_height(const ParticleModel& model, const Triple<double>& from) {
   return drop;
 }
 
-/// A collision with a rigid partner at a speed: the tangent stiffness at the largest overlap, the duration and the largest dashpot.
+/// A collision with a rigid partner at a speed: the tangent stiffness at the largest overlap, the duration
+/// and the largest dashpot.
 struct Collision {
   double stiffness = 0, duration = 0, dashpot = 0;
 };
@@ -53,7 +58,8 @@ struct Impact {
 
 Collision hertz_collision(const Impact& impact, const PairParameters& p) {
   const double modulus = p.normal.x;
-  const double overlap = std::pow(15 * impact.mass * impact.speed * impact.speed / (16 * modulus * std::sqrt(impact.radius)), 0.4);
+  const double overlap = std::pow(
+      15 * impact.mass * impact.speed * impact.speed / (16 * modulus * std::sqrt(impact.radius)), 0.4);
   const double stiffness = 2 * modulus * std::sqrt(impact.radius * overlap);
   const double duration =
       2.868 * std::pow(impact.mass * impact.mass / (impact.radius * modulus * modulus * impact.speed), 0.2);
@@ -85,11 +91,13 @@ class LimitSearch {
   Limits run() {
     for (Index i = 0; i < static_cast<Index>(model_.spheres.size()); ++i) {
       const SphereInput& sphere = model_.spheres[i];
-      const double speed = length(sphere.velocity) + std::sqrt(2 * length(model_.gravity) * drop_height(model_, sphere.position));
+      const double speed = length(sphere.velocity) +
+                           std::sqrt(2 * length(model_.gravity) * drop_height(model_, sphere.position));
       fastest_ = std::max(fastest_, speed);
       rayleigh(i, sphere);
       with_boundary(i, sphere, speed);
-      if (speed > 0) for (const Plane& plane : model_.planes) contact(i, sphere, speed, plane.material);
+      if (speed > 0)
+        for (const Plane& plane : model_.planes) contact(i, sphere, speed, plane.material);
     }
     with_spheres();
     return limits_;
@@ -99,17 +107,21 @@ class LimitSearch {
   void rayleigh(Index i, const SphereInput& sphere) {
     const Material& m = context_.materials[sphere.material];
     const double shear = m.youngs_modulus / (2 * (1 + m.poissons_ratio));
-    const double crossing = std::numbers::pi * sphere.radius * std::sqrt(m.density / shear) / (0.1630 * m.poissons_ratio + 0.8766);
-    limits_.rayleigh.consider(rayleigh_fraction * crossing, fmt::format("0.3 pi R sqrt(rho/G)/(0.163 v + 0.8766), sphere {}", i));
+    const double crossing = std::numbers::pi * sphere.radius * std::sqrt(m.density / shear) /
+                            (0.1630 * m.poissons_ratio + 0.8766);
+    limits_.rayleigh.consider(rayleigh_fraction * crossing,
+                              fmt::format("0.3 pi R sqrt(rho/G)/(0.163 v + 0.8766), sphere {}", i));
   }
 
   Collision contact(Index i, const SphereInput& sphere, double speed, Index partner) {
     const Impact impact{sphere.radius, sphere.mass, speed};
     const PairParameters& p = model_.pairs(sphere.material, partner);
-    const Collision c = model_.law.normal == LawChoice::Normal::hertz ? hertz_collision(impact, p) : linear_collision(impact, p);
+    const Collision c = model_.law.normal == LawChoice::Normal::hertz ? hertz_collision(impact, p)
+                                                                      : linear_collision(impact, p);
     const std::string entity = fmt::format("sphere {} of {:.4g} kg at {:.4g} m/s", i, sphere.mass, speed);
     limits_.spring.consider(2 * std::sqrt(sphere.mass / c.stiffness), "2 sqrt(m/k), " + entity);
-    limits_.duration.consider(c.duration / steps_in_contact, fmt::format("t_c/30, t_c {:.4g} s, {}", c.duration, entity));
+    limits_.duration.consider(c.duration / steps_in_contact,
+                              fmt::format("t_c/30, t_c {:.4g} s, {}", c.duration, entity));
     return c;
   }
 
@@ -124,7 +136,8 @@ class LimitSearch {
       limits_.tunnelling.consider(tunnelling_fraction * (sphere.radius + feature.wire_radius) / speed,
                                   fmt::format("(R + r_w)/(2 v), sphere {} at {:.4g} m/s", i, speed));
       if (lightest_node_ <= 0) continue;
-      const std::string entity = fmt::format("sphere {} of {:.4g} kg at {:.4g} m/s on a node of {:.4g} kg", i, sphere.mass, speed, lightest_node_);
+      const std::string entity = fmt::format("sphere {} of {:.4g} kg at {:.4g} m/s on a node of {:.4g} kg", i,
+                                             sphere.mass, speed, lightest_node_);
       limits_.node_spring.consider(2 * std::sqrt(lightest_node_ / c.stiffness), "2 sqrt(m/k), " + entity);
       if (c.dashpot > 0) limits_.node_dashpot.consider(2 * lightest_node_ / c.dashpot, "2 m/c, " + entity);
     }
@@ -140,7 +153,8 @@ class LimitSearch {
     }
     for (Index i : lightest)
       for (Index j : lightest)
-        if (i >= 0 && j >= 0 && model_.pairs(model_.spheres[i].material, model_.spheres[j].material).normal.x > 0)
+        if (i >= 0 && j >= 0 &&
+            model_.pairs(model_.spheres[i].material, model_.spheres[j].material).normal.x > 0)
           contact(i, model_.spheres[i], 2 * fastest_, model_.spheres[j].material);
   }
 
@@ -156,7 +170,8 @@ class LimitSearch {
 std::vector<ParticleStepLimit> step_limits(const ParticleModel& model, const LimitContext& context) {
   const Limits found = LimitSearch(model, context).run();
   std::vector<ParticleStepLimit> limits;
-  for (const Tightest& tightest : {found.spring, found.node_spring, found.tunnelling, found.duration, found.rayleigh, found.node_dashpot})
+  for (const Tightest& tightest : {found.spring, found.node_spring, found.tunnelling, found.duration,
+                                   found.rayleigh, found.node_dashpot})
     if (std::isfinite(tightest.limit.seconds)) limits.push_back(tightest.limit);
   return limits;
 }

@@ -1,0 +1,138 @@
+#include "dem_solver/app/adapter.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "core/errors.hpp"
+#include "core/program/command_line.hpp"
+#include "dem_solver/app/particle_run.hpp"
+
+namespace talus::dem {
+
+namespace {
+
+using coupler::Action;
+using coupler::Command;
+
+/// Ω_D behind the scene's own boundaries, which nothing moves.
+struct CoupledBoundary {
+  mesh::Surface surface;
+  Index first_node = 0;             ///< of Ω_D
+  std::vector<double> node_masses;  ///< kg; of Ω_D
+};
+
+CoupledBoundary receive_boundary(const RunScene& scene, coupler::Participant& participant) {
+  CoupledBoundary boundary;
+  boundary.surface = make_surface(scene.particles.boundaries);
+  boundary.first_node = boundary.surface.node_count();
+  append(boundary.surface, participant.receive_surface(boundary.node_masses));
+  return boundary;
+}
+
+coupler::Declaration declaration_of(const RunScene& scene, const ParticleRun& run, bool has_interface) {
+  coupler::Declaration declaration;
+  declaration.program = "dem_solver " + core::version();
+  declaration.step = scene.particles.step.value_or(0);
+  declaration.insists_on_step = scene.particles.unstable_step == ParticlesScene::UnstableStep::allowed;
+  declaration.outputs = run.output.description();
+  for (const ParticleStepLimit& limit : run.limits)
+    declaration.limits.push_back({limit.name, limit.seconds, limit.stability, limit.reason});
+  for (const ParticleEffect& effect : effects_of(scene.particles, {has_interface, scene.output.has_value()}))
+    declaration.effects.push_back({effect.name, effect.present, effect.reason});
+  return declaration;
+}
+
+/// Answers the commands of one run.
+class Server {
+ public:
+  Server(const RunScene& scene, ParticleRun& run, coupler::Participant& participant, Index first_node)
+      : own_step_(scene.particles.step), run_(run), participant_(participant), first_node_(first_node) {}
+
+  void serve() {
+    for (Command command = participant_.next(); command.action != Action::finish;
+         command = participant_.next()) {
+      obey(command);
+      participant_.answer();
+    }
+  }
+
+ private:
+  void obey(const Command& command) {
+    switch (command.action) {
+      case Action::advance:
+        return advance(command);
+      case Action::save_state:
+        saved_ = run_.solver;
+        return;
+      case Action::restore_state:
+        return restore();
+      case Action::report:
+        return coupler::report(participant_, command, run_.output);
+      case Action::write_checkpoint:
+      case Action::read_checkpoint:
+      case Action::finish:
+        break;
+    }
+  }
+
+  void restore() {
+    if (!saved_) throw core::UsageError("restore_state may not come before save_state");
+    run_.solver = *saved_;
+  }
+
+  /// One window: as many equal steps as the own step asks for, on a boundary that moves from the window's
+  /// start to its end. The force handed back is the mean over the steps, which has the same impulse.
+  void advance(const Command& command) {
+    const auto fields = participant_.particle_fields();
+    const std::int64_t steps =
+        own_step_ ? static_cast<std::int64_t>(std::ceil(command.length / *own_step_ * (1 - 1e-12))) : 1;
+    run_.solver.set_clock({.time = command.time, .step = command.length / static_cast<double>(steps)});
+    std::ranges::fill(fields.force, 0.0);
+    const Boundary::Motion motion{fields.start_displacement, fields.start_velocity, fields.end_displacement,
+                                  fields.end_velocity, first_node_};
+    for (std::int64_t k = 0; k < steps; ++k) {
+      if (!run_.solver.boundary().empty())
+        run_.solver.boundary().move(motion, static_cast<double>(k) / static_cast<double>(steps));
+      run_.solver.step();
+      add_reactions(fields.force, 1.0 / static_cast<double>(steps));
+    }
+  }
+
+  void add_reactions(std::span<double> force, double share) const {
+    const auto reaction = run_.solver.boundary().reaction();
+    for (std::size_t i = 0; i < force.size() / 3; ++i) {
+      const Row& r = reaction[first_node_ + i];
+      force[3 * i] += share * r.x;
+      force[3 * i + 1] += share * r.y;
+      force[3 * i + 2] += share * r.z;
+    }
+  }
+
+  std::optional<double> own_step_;
+  ParticleRun& run_;
+  coupler::Participant& participant_;
+  Index first_node_;
+  std::optional<ParticleSolver> saved_;
+};
+
+void serve(const core::SceneFile& file, coupler::Participant& participant) {
+  const RunScene scene = read_run_scene(file);
+  const CoupledBoundary boundary = receive_boundary(scene, participant);
+  ParticleRun run(scene, boundary.surface, boundary.node_masses);
+  participant.declare(declaration_of(scene, run, !boundary.node_masses.empty()));
+  Server(scene, run, participant, boundary.first_node).serve();
+}
+
+}  // namespace
+
+void serve_particles(const core::SceneFile& file, coupler::Participant& participant) {
+  try {
+    serve(file, participant);
+  } catch (const std::exception& error) {
+    participant.fail(error);
+    throw;
+  }
+}
+
+}  // namespace talus::dem

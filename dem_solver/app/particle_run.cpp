@@ -1,0 +1,57 @@
+#include "dem_solver/app/particle_run.hpp"
+
+#include "core/parallel.hpp"
+
+namespace talus::dem {
+
+RunScene read_run_scene(const core::SceneFile& file) {
+  core::SceneReader reader(file);
+  RunScene scene;
+  scene.time = reader.required<core::TimeScene>("time");
+  scene.output = reader.optional<core::OutputScene>("output");
+  scene.particles = reader.required<ParticlesScene>("particles");
+  reader.finish();
+  return scene;
+}
+
+std::optional<double> own_step(const RunScene& scene) {
+  return scene.particles.step ? scene.particles.step : scene.time.step;
+}
+
+namespace {
+
+ParticleModel model_of(const RunScene& scene, const mesh::Surface& surface) {
+  const int threads = std::max(static_cast<int>(scene.particles.threads), core::thread_count());
+  return build_model(
+      scene.particles, surface,
+      {.step = own_step(scene).value_or(0), .ledger = scene.output.has_value(), .threads = threads});
+}
+
+std::vector<std::pair<std::string, Index>> named_spheres(const ParticlesScene& particles) {
+  std::vector<std::pair<std::string, Index>> named;
+  for (const auto& [name, sphere] : particles.spheres)
+    named.emplace_back(name, static_cast<Index>(named.size()));
+  return named;
+}
+
+}  // namespace
+
+ParticleRun::ParticleRun(const RunScene& scene, const mesh::Surface& surface,
+                         std::span<const double> node_masses)
+    : ParticleRun(scene, model_of(scene, surface), node_masses) {}
+
+ParticleRun::ParticleRun(const RunScene& scene, const ParticleModel& model,
+                         std::span<const double> node_masses)
+    : solver(model),
+      output(solver, named_spheres(scene.particles)),
+      limits(step_limits(model, {.materials = materials_of(scene.particles), .node_masses = node_masses})) {}
+
+std::string schema() {
+  return core::schema_markdown("particles", "The particle side: spheres, what they meet, and how.",
+                               [](core::Fields& fields) {
+                                 ParticlesScene particles;
+                                 describe(fields, particles);
+                               });
+}
+
+}  // namespace talus::dem

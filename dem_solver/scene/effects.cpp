@@ -1,0 +1,52 @@
+#include "dem_solver/scene/effects.hpp"
+
+namespace talus::dem {
+
+namespace {
+
+/// The first contact entry for which `has` holds, as "particles.contacts[2]"; empty where there is none.
+template <class Has>
+std::string contact_with(const ParticlesScene& particles, Has&& has) {
+  for (std::size_t k = 0; k < particles.contacts.size(); ++k)
+    if (has(particles.contacts[k])) return "particles.contacts[" + std::to_string(k) + "]";
+  return {};
+}
+
+ParticleEffect effect(const char* name, const std::string& named_by, const char* would_need) {
+  return {name, !named_by.empty(), named_by.empty() ? would_need : named_by + " is given"};
+}
+
+}  // namespace
+
+std::vector<ParticleEffect> effects_of(const ParticlesScene& particles, const EffectContext& context) {
+  const auto friction = contact_with(particles, [](const ContactScene& c) { return c.friction.has_value(); });
+  const auto falling =
+      contact_with(particles, [](const ContactScene& c) { return c.friction && c.friction->decay_speed; });
+  const auto rolling = contact_with(particles, [](const ContactScene& c) { return c.rolling.has_value(); });
+  const auto linear = contact_with(
+      particles, [](const ContactScene& c) { return std::holds_alternative<LinearScene>(c.normal); });
+  const auto suffixed = [](const std::string& entry, const char* key) {
+    return entry.empty() ? entry : entry + key;
+  };
+  return {
+      effect("gravity", particles.gravity ? "particles.gravity" : "", "particles.gravity is absent"),
+      effect("contacts between spheres", particles.spheres.size() > 1 ? "more than one sphere" : "",
+             "there is one sphere only"),
+      effect("planes", particles.planes.empty() ? "" : "particles.planes", "particles.planes is absent"),
+      effect("boundary",
+             !particles.boundaries.empty() ? "particles.boundaries"
+             : context.has_interface       ? "interface"
+                                           : "",
+             "particles.boundaries and interface are absent"),
+      effect("linear contact law", suffixed(linear, ".linear"), "contacts name `hertz`"),
+      effect("friction", suffixed(friction, ".friction"), "no contact names `friction`"),
+      effect("rotation", suffixed(friction, ".friction"),
+             "nothing turns the spheres: no contact names `friction`"),
+      effect("falling friction coefficient", suffixed(falling, ".friction.decay_speed"),
+             "no contact names `friction.decay_speed`"),
+      effect("rolling resistance", suffixed(rolling, ".rolling"), "no contact names `rolling`"),
+      effect("energy ledger", context.has_output ? "output" : "", "output is absent"),
+  };
+}
+
+}  // namespace talus::dem
