@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <random>
+#include <span>
 
 #include "core/vector3.hpp"
 
@@ -28,6 +29,10 @@ class Dice {
  private:
   std::mt19937_64 generator_;
 };
+
+inline std::span<const double> span_of(const Eigen::VectorXd& x) {
+  return {x.data(), static_cast<std::size_t>(x.size())};
+}
 
 /// Turns each of the 3-vectors stacked in `stacked`.
 inline Eigen::VectorXd turned(const Eigen::Matrix3d& rotation, Eigen::VectorXd stacked) {

@@ -11,9 +11,6 @@
 /// Ropes as stacked node positions, for tests of the kernels alone.
 namespace talus::test {
 
-inline std::span<const double> span_of(const Eigen::VectorXd& x) {
-  return {x.data(), static_cast<std::size_t>(x.size())};
-}
 inline fem::StackedChords chords_of(const Eigen::VectorXd& x) {
   return fem::StackedChords(span_of(x));
 }
