@@ -22,3 +22,7 @@ target_link_libraries(udunits2 INTERFACE ${UDUNITS2_LIBRARY})
 add_library(hdf5_c INTERFACE)
 target_include_directories(hdf5_c SYSTEM INTERFACE ${HDF5_C_INCLUDE_DIRS})
 target_link_libraries(hdf5_c INTERFACE ${HDF5_C_LIBRARIES})
+
+# Debian's Python first: NumPy and SciPy belong to it, and the participant's package is built for it.
+find_program(TALUS_PYTHON python3 PATHS /usr/bin NO_DEFAULT_PATH)
+find_program(TALUS_PYTHON python3 REQUIRED)

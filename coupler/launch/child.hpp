@@ -9,6 +9,12 @@
 /// Programs started by the coupler.
 namespace talus::coupler::launch {
 
+/// What is to be started, and what messages call it.
+struct Program {
+  std::string name;
+  std::vector<std::string> command;  ///< program and arguments
+};
+
 /// How a child ended.
 struct ExitStatus {
   int code = 0;    ///< of a normal end

@@ -29,6 +29,12 @@ bool can_be_started(const fs::path& file) {
   return fs::is_regular_file(file, error) && (is_python(file) || access(file.c_str(), X_OK) == 0);
 }
 
+std::vector<std::string> python_command(const fs::path& file) {
+  std::string search = "PYTHONPATH=" + (program_folder().parent_path() / "python").string();
+  if (const char* of_the_user = std::getenv("PYTHONPATH")) search += std::string(":") + of_the_user;
+  return {"/usr/bin/env", search, TALUS_PYTHON, file.string()};
+}
+
 }  // namespace
 
 fs::path program_folder() {
@@ -42,16 +48,16 @@ fs::path own_solver(const std::string& name) {
   return file;
 }
 
-std::optional<std::vector<std::string>> named_solver(const std::string& written,
-                                                     const fs::path& relative_to_scene) {
+std::optional<Program> named_solver(const std::string& written, const fs::path& relative_to_scene) {
   std::vector<fs::path> candidates{relative_to_scene, program_folder() / written};
   if (written.find('/') == std::string::npos) {
     for (const auto& folder : folders_of_path()) candidates.push_back(folder / written);
   }
   for (const auto& file : candidates) {
     if (!can_be_started(file)) continue;
-    if (is_python(file)) return std::vector<std::string>{"python3", file.string()};
-    return std::vector<std::string>{file.string()};
+    std::vector<std::string> command{file.string()};
+    if (is_python(file)) command = python_command(file);
+    return Program{.name = file.filename(), .command = std::move(command)};
   }
   return std::nullopt;
 }

@@ -1,10 +1,10 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <optional>
 #include <string>
-#include <vector>
+
+#include "coupler/launch/child.hpp"
 
 namespace talus::coupler::launch {
 
@@ -15,10 +15,11 @@ std::filesystem::path program_folder();
 /// there
 std::filesystem::path own_solver(const std::string& name);
 
-/// The command that starts a solver a scene names: absolute, else relative to the scene, else beside the
-/// running program, else on PATH. A Python file is run by python3. @returns nothing where there is no such
-/// program
-std::optional<std::vector<std::string>> named_solver(const std::string& written,
-                                                     const std::filesystem::path& relative_to_scene);
+/// A solver a scene names: absolute, else relative to the scene, else beside the running program, else on
+/// PATH. A Python file is run by the Python that the package `talus` was built for, which it finds on its
+/// path.
+/// @returns nothing where there is no such program
+std::optional<Program> named_solver(const std::string& written,
+                                    const std::filesystem::path& relative_to_scene);
 
 }  // namespace talus::coupler::launch

@@ -12,18 +12,18 @@ struct SideProgram {
   const std::optional<SolverScene>& scene;
 };
 
-/// The command line of a side's program, or nothing with a complaint where the scene names one that is not
-/// there.
-std::optional<std::vector<std::string>> command_of(const SideProgram& side, const core::SceneFile& file,
-                                                   int threads, std::vector<core::Complaint>& complaints) {
+/// A side's program, or nothing with a complaint where the scene names one that is not there.
+std::optional<launch::Program> program_of(const SideProgram& side, const core::SceneFile& file, int threads,
+                                          std::vector<core::Complaint>& complaints) {
   if (!side.scene->solver) {
-    return std::vector<std::string>{launch::own_solver(side.own_program), file.path(), "--threads",
-                                    std::to_string(threads)};
+    return launch::Program{
+        side.own_program,
+        {launch::own_solver(side.own_program), file.path(), "--threads", std::to_string(threads)}};
   }
   const std::string& written = *side.scene->solver;
-  auto command = launch::named_solver(written, file.resolve(written));
-  if (command) {
-    command->push_back(file.path());
+  auto program = launch::named_solver(written, file.resolve(written));
+  if (program) {
+    program->command.push_back(file.path());
   } else {
     complaints.push_back(
         {.file = file.path(),
@@ -31,7 +31,7 @@ std::optional<std::vector<std::string>> command_of(const SideProgram& side, cons
          .message = "names the program '" + written +
                     "', which is not there: looked relative to the scene, beside talus, and on PATH"});
   }
-  return command;
+  return program;
 }
 
 std::unique_ptr<Session> open_session(const CouplingScene& coupling) {
@@ -54,8 +54,8 @@ PreparedRun prepare(const PrepareOptions& options) {
   for (const SideProgram& side : {SideProgram{Role::structure, "fem_solver", run.scene.structure},
                                   SideProgram{Role::particles, "dem_solver", run.scene.particles}}) {
     if (!side.scene) continue;
-    if (const auto command = command_of(side, run.file, options.threads, complaints))
-      run.session->launch(side.role, *command);
+    if (const auto program = program_of(side, run.file, options.threads, complaints))
+      run.session->launch(side.role, *program);
   }
   run.session->wait_joined();
   std::optional<InterfacePlan> plan;

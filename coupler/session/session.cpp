@@ -32,11 +32,11 @@ Peer& Session::await(Role role) {
   return *peers_.back();
 }
 
-Peer& Session::launch(Role role, const std::vector<std::string>& command) {
+Peer& Session::launch(Role role, const launch::Program& program) {
   Peer& peer = await(role);
-  std::vector<std::string> full = command;
+  std::vector<std::string> full = program.command;
   full.insert(full.end(), {"--join", segment_->name()});
-  peer.set_program(std::filesystem::path(command.front()).filename());
+  peer.set_program(program.name);
   peer.set_child(launch::Child(full));
   return peer;
 }

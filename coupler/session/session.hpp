@@ -31,8 +31,8 @@ class Session {
 
   /// Awaits a participant in this role, which somebody else starts.
   Peer& await(Role role);
-  /// Starts a program that is to join in this role; `command` without the arguments that say where to.
-  Peer& launch(Role role, const std::vector<std::string>& command);
+  /// Starts a program that is to join in this role; its command without the arguments that say where to.
+  Peer& launch(Role role, const launch::Program& program);
   Peer* find(Role role);
   std::vector<Peer*> peers();
   std::string segment_name() const { return segment_->name(); }

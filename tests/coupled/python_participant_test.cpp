@@ -2,10 +2,10 @@
 
 #include <chrono>
 #include <cmath>
-#include <cstdlib>
 #include <thread>
 
 #include "core/errors.hpp"
+#include "coupler/launch/find_solver.hpp"
 #include "coupler/participant.hpp"
 #include "coupler/schemes/serial_explicit.hpp"
 #include "coupler/session/introduction.hpp"
@@ -26,11 +26,11 @@ coupler::Window window_of(std::int64_t index) {
 /// A structure in Python, and particles that this test is itself.
 class PythonRun {
  public:
-  explicit PythonRun(std::vector<std::string> command)
+  PythonRun(const std::string& solver, const std::vector<std::string>& arguments)
       : segment_(coupler::transport::create_shared_segment()), session_(segment_, {.timeout = 20}) {
-    setenv("PYTHONPATH", TALUS_BINARY_DIR "/python", 1);
-    command.insert(command.begin(), TALUS_PYTHON);
-    session_.launch(Role::structure, command);
+    auto program = coupler::launch::named_solver(solver, root + "/" + solver).value();
+    program.command.insert(program.command.end(), arguments.begin(), arguments.end());
+    session_.launch(Role::structure, program);
     session_.await(Role::particles);
     particles_ = coupler::Participant::join({.segment = segment_->name(), .role = Role::particles});
   }
@@ -85,7 +85,7 @@ double no_force(std::int64_t) {
 }
 
 void run_failing(const std::string& how) {
-  PythonRun run({root + "/tests/coupled/participants/failing.py", how});
+  PythonRun run("tests/coupled/participants/failing.py", {how});
   run.start(0, no_force);
   for (int window = 0; window < 5; ++window) run.compute(window);
 }
@@ -96,7 +96,7 @@ constexpr double noticed_within = 1;
 }  // namespace
 
 TEST_CASE("masses on springs in Python move as the leapfrog says, to the last bit") {
-  PythonRun run({root + "/python/examples/springs.py", "scene.yaml"});
+  PythonRun run("python/examples/springs.py", {"scene.yaml"});
   const std::size_t middle = 12, corner = 0;
   run.start(middle, pulsating_force);
   REQUIRE(run.interface().structure.node_count() == 25);
@@ -119,7 +119,7 @@ TEST_CASE("masses on springs in Python move as the leapfrog says, to the last bi
 }
 
 TEST_CASE("a Python participant goes back to the state it saved") {
-  PythonRun run({root + "/python/examples/springs.py", "scene.yaml"});
+  PythonRun run("python/examples/springs.py", {"scene.yaml"});
   run.start(12, pulsating_force);
   const auto displacement = run.structure().array(coupler::transport::ArrayName::displacement);
   for (int window = 0; window < 10; ++window) run.compute(window);
@@ -152,15 +152,15 @@ TEST_CASE("a ConfigError raised in Python ends the run with exactly its text") {
 
 TEST_CASE("any other exception in Python ends the run with its type, its text and the window") {
   using Catch::Contains;
-  CHECK_THROWS_WITH(run_failing("exception"),
-                    Contains("ZeroDivisionError: a bug of the solver") && Contains("window 2"));
+  CHECK_THROWS_WITH(run_failing("exception"), Contains("ZeroDivisionError: a bug of the solver") &&
+                                                  Contains("failing.py") && Contains("window 2"));
   CHECK_THROWS_AS(run_failing("exception"), core::TransportError);
 }
 
 TEST_CASE("a Python participant that leaves or is killed is named within a second") {
   for (const auto& [how, told] :
        {std::pair{"leave", "SystemExit: 3"}, std::pair{"kill", "killed by signal 9"}}) {
-    PythonRun run({root + "/tests/coupled/participants/failing.py", how});
+    PythonRun run("tests/coupled/participants/failing.py", {how});
     run.start(0, no_force);
     run.compute(0);
     run.compute(1);
