@@ -1,0 +1,135 @@
+#include "fem_solver/scene/shapes.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "core/errors.hpp"
+#include "interface_mesh/square_net.hpp"
+
+namespace talus::fem {
+namespace {
+
+using mesh::Index;
+
+void append(mesh::Surface& surface, const core::Vector3& point) {
+  surface.positions.insert(surface.positions.end(), {point.x(), point.y(), point.z()});
+}
+
+mesh::NodeSet all_nodes(const mesh::Surface& surface) {
+  mesh::NodeSet set{"nodes", {}};
+  for (Index i = 0; i < surface.node_count(); ++i) set.nodes.push_back(i);
+  return set;
+}
+
+Index node_number(double written, const mesh::Surface& surface) {
+  if (written != std::floor(written) || written < 0 || written >= surface.node_count())
+    throw core::ConfigError(fmt::format("an element names node {}, but the nodes are numbered 0 to {}", written,
+                                        surface.node_count() - 1));
+  return static_cast<Index>(written);
+}
+
+}  // namespace
+
+void describe(core::Fields& fields, PolylineScene& polyline) {
+  fields.required("points", polyline.points, {.unit = "m", .help = "corners of the line, at least two"});
+  fields.with_default("divisions", polyline.divisions,
+                      {.range = {.low = 1, .high = 1e7}, .help = "elements between two neighbouring points"});
+  fields.rule(polyline.points.size() >= 2, "points", "needs at least two points");
+}
+
+void describe(core::Fields& fields, MeshScene& mesh) {
+  fields.required("nodes", mesh.nodes, {.unit = "m", .help = "positions of the nodes, numbered from 0"});
+  fields.with_default("segments", mesh.segments, {.range = core::not_negative, .help = "pairs of node numbers"});
+  fields.with_default("triangles", mesh.triangles,
+                      {.range = core::not_negative, .help = "triples of node numbers, counter-clockwise"});
+  fields.rule(mesh.segments.empty() != mesh.triangles.empty(), "segments", "needs either `segments` or `triangles`");
+}
+
+void describe(core::Fields& fields, TriangleGridScene& grid) {
+  fields.required("corner", grid.corner, {.unit = "m", .help = "the corner the rectangle starts from"});
+  fields.required("size", grid.size, {.unit = "m", .range = core::positive, .help = "the two side lengths"});
+  fields.required("divisions", grid.divisions, {.range = {.low = 1, .high = 1e5}, .help = "cells along both sides"});
+  fields.with_default("along", grid.along, {.help = "direction of the first side"});
+  fields.with_default("across", grid.across, {.help = "direction of the second side"});
+  fields.rule(grid.size.size() == 2, "size", "needs two lengths");
+  fields.rule(grid.divisions.size() == 2, "divisions", "needs two numbers");
+  fields.rule(grid.along.cross(grid.across).norm() > 1e-6 * grid.along.norm() * grid.across.norm(), "across",
+              "must not be parallel to `along`");
+}
+
+void describe(core::Fields& fields, ThroughScene& through) {
+  fields.required("nodes", through.nodes, {.help = "node sets the rope runs through, in this order: [net.edge_south]"});
+  fields.optional("from", through.from, {.unit = "m", .help = "an own end before the first of these nodes"});
+  fields.optional("to", through.to, {.unit = "m", .help = "an own end after the last of these nodes"});
+}
+
+void describe_shape(core::Fields& fields, ShapeScene& shape) {
+  fields.one_of(shape, {{"square_net", "wires along two directions at a pitch"},
+                        {"polyline", "a rope or bar along straight lines"},
+                        {"mesh", "nodes and elements written out"},
+                        {"triangle_grid", "a rectangle of triangles"},
+                        {"through", "a rope through nodes of other parts"}});
+}
+
+mesh::Net generate(const PolylineScene& polyline) {
+  mesh::Net net;
+  mesh::NodeSet corners{"points", {0}};
+  append(net.surface, polyline.points.front());
+  for (std::size_t i = 0; i + 1 < polyline.points.size(); ++i) {
+    const core::Vector3 &a = polyline.points[i], &b = polyline.points[i + 1];
+    for (std::int64_t k = 1; k <= polyline.divisions; ++k) {
+      const Index last = net.surface.node_count();
+      append(net.surface, k == polyline.divisions ? b : a + (b - a) * static_cast<double>(k) /
+                                                                static_cast<double>(polyline.divisions));
+      net.surface.segments.push_back({last - 1, last});
+    }
+    corners.nodes.push_back(net.surface.node_count() - 1);
+  }
+  net.node_sets = {all_nodes(net.surface), {"start", {0}}, {"end", {net.surface.node_count() - 1}}, corners};
+  return net;
+}
+
+mesh::Net generate(const MeshScene& scene) {
+  mesh::Net net;
+  for (const auto& node : scene.nodes) append(net.surface, node);
+  net.node_sets = {all_nodes(net.surface)};
+  for (Index i = 0; i < net.surface.node_count(); ++i) net.node_sets.push_back({std::to_string(i), {i}});
+  for (const auto& [a, b] : scene.segments)
+    net.surface.segments.push_back({node_number(a, net.surface), node_number(b, net.surface)});
+  for (const auto& t : scene.triangles)
+    net.surface.triangles.push_back({node_number(t.x(), net.surface), node_number(t.y(), net.surface),
+                                     node_number(t.z(), net.surface)});
+  return net;
+}
+
+mesh::Net generate(const TriangleGridScene& grid) {
+  const auto columns = static_cast<Index>(grid.divisions[0]), rows = static_cast<Index>(grid.divisions[1]);
+  const auto node = [columns](Index i, Index j) { return j * (columns + 1) + i; };
+  mesh::Net net;
+  for (Index j = 0; j <= rows; ++j)
+    for (Index i = 0; i <= columns; ++i)
+      append(net.surface, grid.corner + grid.along.normalized() * (grid.size[0] * i / columns) +
+                              grid.across.normalized() * (grid.size[1] * j / rows));
+  for (Index j = 0; j < rows; ++j) {
+    for (Index i = 0; i < columns; ++i) {
+      const Index a = node(i, j), b = node(i + 1, j), c = node(i + 1, j + 1), d = node(i, j + 1);
+      const bool rising = (i + j) % 2 == 0;  // alternating, so that the grid prefers neither diagonal
+      net.surface.triangles.push_back(rising ? std::array{a, b, c} : std::array{a, b, d});
+      net.surface.triangles.push_back(rising ? std::array{a, c, d} : std::array{b, c, d});
+    }
+  }
+  mesh::NodeSet south{"edge_south", {}}, east{"edge_east", {}}, north{"edge_north", {}}, west{"edge_west", {}};
+  for (Index i = 0; i <= columns; ++i) south.nodes.push_back(node(i, 0));
+  for (Index j = 0; j <= rows; ++j) east.nodes.push_back(node(columns, j));
+  for (Index i = columns; i >= 0; --i) north.nodes.push_back(node(i, rows));
+  for (Index j = rows; j >= 0; --j) west.nodes.push_back(node(0, j));
+  mesh::NodeSet rim{"rim", {}};
+  for (const auto* edge : {&south, &east, &north, &west})
+    rim.nodes.insert(rim.nodes.end(), edge->nodes.begin(), edge->nodes.end() - 1);
+  const mesh::NodeSet corners{"corners", {node(0, 0), node(columns, 0), node(columns, rows), node(0, rows)}};
+  net.node_sets = {all_nodes(net.surface), rim, corners, south, east, north, west};
+  return net;
+}
+
+}  // namespace talus::fem

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "core/scene/fields.hpp"
+#include "fem_solver/scene/conditions.hpp"
+#include "fem_solver/scene/shapes.hpp"
+
+/// The section `structure` of a scene.
+namespace talus::fem {
+
+/// Area, density and elastic law of bars and cables.
+struct AxialScene {
+  double area = 0;            ///< m^2
+  double density = 0;         ///< kg/m^3
+  double youngs_modulus = 0;  ///< Pa
+  double prestress = 0;       ///< Pa, second Piola-Kirchhoff
+};
+struct BarScene : AxialScene {};
+struct CableScene : AxialScene {};
+void describe(core::Fields& fields, BarScene& bar);
+void describe(core::Fields& fields, CableScene& cable);
+
+using ElementScene = std::variant<BarScene, CableScene>;
+
+struct PartScene {
+  std::string place;
+  ShapeScene shape;
+  ElementScene element;
+};
+void describe(core::Fields& fields, PartScene& part);
+
+struct DampingScene {
+  double mass = 0;       ///< 1/s
+  double stiffness = 0;  ///< s
+};
+void describe(core::Fields& fields, DampingScene& damping);
+
+struct WeldScene {
+  double tolerance = 0;  ///< m
+};
+void describe(core::Fields& fields, WeldScene& weld);
+
+/// Central differences.
+struct ExplicitScene {};
+void describe(core::Fields& fields, ExplicitScene& method);
+using MethodScene = std::variant<std::monostate, ExplicitScene>;
+
+struct StructureScene {
+  std::optional<std::string> solver;
+  std::optional<DampingScene> damping;
+  std::optional<core::Vector3> gravity;  ///< m/s^2
+  std::vector<std::pair<std::string, PartScene>> parts;
+  std::optional<WeldScene> weld;
+  std::vector<std::pair<std::string, NodeSelection>> node_sets;
+  std::vector<SupportScene> supports;
+  std::vector<LoadScene> loads;
+  std::vector<PointMassScene> point_masses;
+  std::vector<InitialVelocityScene> initial_velocities;
+  MethodScene method;
+  std::optional<double> step;  ///< s
+  enum class UnstableStep { refused, allowed } unstable_step = UnstableStep::refused;
+  std::int64_t threads = 1;
+};
+void describe(core::Fields& fields, StructureScene& structure);
+
+}  // namespace talus::fem
