@@ -7,6 +7,7 @@
 #include <chrono>
 #include <vector>
 
+#include "core/parallel.hpp"
 #include "fem_solver/integration/explicit.hpp"
 #include "fem_solver/integration/step_limit.hpp"
 
@@ -51,19 +52,18 @@ double best_seconds(const Work& work) {
 }
 
 /// Bytes read and written a second by a copy of arrays far larger than the caches.
-double copy_gb_per_s(const Team& team) {
+double copy_gb_per_s() {
   std::vector<double> from(1 << 23, 1.0), to(from.size());
   const double seconds = best_seconds([&] {
-    team.run(static_cast<Index>(from.size()),
-             [&](Range r) { std::copy(&from[r.begin], &from[0] + r.end, &to[r.begin]); });
+    talus::core::parallel_blocks(static_cast<std::int64_t>(from.size()), [&](talus::core::Block r, std::int64_t) { std::copy(&from[r.begin], &from[0] + r.end, &to[r.begin]); });
   });
   return 2e-9 * sizeof(double) * static_cast<double>(from.size()) / seconds;
 }
 
 void measure(int threads) {
   const Model model = cable_net(224);
-  const Team team(threads);
-  Assembly assembly(model, team);
+  talus::core::set_thread_count(threads);
+  Assembly assembly(model);
   ExplicitSolver solver(model, assembly);
   const double step = 0.5 * 0.1 * std::sqrt(7850 / 1e11);
   constexpr int steps = 200;
@@ -75,7 +75,7 @@ void measure(int threads) {
   fmt::print(
       R"({{"element":"cable","elements":{},"threads":{},"elements_per_s":{:.4g},"copy_gb_per_s":{:.3g}}})"
       "\n",
-      elements, threads, steps * static_cast<double>(elements) / seconds, copy_gb_per_s(team));
+      elements, threads, steps * static_cast<double>(elements) / seconds, copy_gb_per_s());
 }
 
 }  // namespace

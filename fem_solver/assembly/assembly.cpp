@@ -2,6 +2,8 @@
 
 #include <numeric>
 
+#include "core/parallel.hpp"
+
 namespace talus::fem {
 namespace {
 
@@ -21,7 +23,7 @@ void for_each_incidence(const Model& model, const std::vector<std::size_t>& slot
 
 }  // namespace
 
-Assembly::Assembly(const Model& model, Team team) : model_(model), team_(team) {
+Assembly::Assembly(const Model& model) : model_(model) {
   std::size_t slots = 0;
   for (const auto& part : model.parts) {
     slot_begin_.push_back(slots);
@@ -50,8 +52,9 @@ void Assembly::internal_force(std::span<const double> displacement, std::span<do
   for (std::size_t p = 0; p < model_.parts.size(); ++p) {
     std::visit(
         [&](const auto& batch) {
-          team_.run(batch.size(),
-                    [&](Range range) { batch.internal_force(displacement, slots_of(p), range); });
+          core::parallel_blocks(batch.size(), [&](core::Block elements, std::int64_t) {
+            batch.internal_force(displacement, slots_of(p), elements);
+          });
         },
         model_.parts[p].elements);
   }
@@ -63,8 +66,8 @@ void Assembly::stiffness_product(std::span<const double> displacement, std::span
   for (std::size_t p = 0; p < model_.parts.size(); ++p) {
     std::visit(
         [&](const auto& batch) {
-          team_.run(batch.size(), [&](Range range) {
-            batch.stiffness_product(displacement, direction, slots_of(p), range);
+          core::parallel_blocks(batch.size(), [&](core::Block elements, std::int64_t) {
+            batch.stiffness_product(displacement, direction, slots_of(p), elements);
           });
         },
         model_.parts[p].elements);
@@ -73,22 +76,20 @@ void Assembly::stiffness_product(std::span<const double> displacement, std::span
 }
 
 void Assembly::gather(double factor, std::span<double> sums) const noexcept {
-  team_.run(model_.nodes(), [&](Range nodes) {
-    for (Index node = nodes.begin; node < nodes.end; ++node) {
-      double x = 0, y = 0, z = 0;
-      for (Index k = incidence_begin_[node]; k < incidence_begin_[node + 1]; ++k) {
-        const Index entry = incidence_[k];
-        const double sign = (entry & 1) ? -factor : factor;
-        const double* slot = &slots_[3 * static_cast<std::size_t>(entry >> 1)];
-        x += sign * slot[0];
-        y += sign * slot[1];
-        z += sign * slot[2];
-      }
-      double* sum = &sums[3 * static_cast<std::size_t>(node)];
-      sum[0] = x;
-      sum[1] = y;
-      sum[2] = z;
+  core::parallel_for(model_.nodes(), [&](std::int64_t node) {
+    double x = 0, y = 0, z = 0;
+    for (Index k = incidence_begin_[node]; k < incidence_begin_[node + 1]; ++k) {
+      const Index entry = incidence_[k];
+      const double sign = (entry & 1) ? -factor : factor;
+      const double* slot = &slots_[3 * static_cast<std::size_t>(entry >> 1)];
+      x += sign * slot[0];
+      y += sign * slot[1];
+      z += sign * slot[2];
     }
+    double* sum = &sums[3 * static_cast<std::size_t>(node)];
+    sum[0] = x;
+    sum[1] = y;
+    sum[2] = z;
   });
 }
 

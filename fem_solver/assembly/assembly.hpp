@@ -3,7 +3,6 @@
 #include <span>
 #include <vector>
 
-#include "fem_solver/assembly/team.hpp"
 #include "fem_solver/model/model.hpp"
 
 namespace talus::fem {
@@ -13,7 +12,7 @@ namespace talus::fem {
 class Assembly {
  public:
   /// @pre model outlives the assembly and its parts are not changed
-  Assembly(const Model& model, Team team);
+  explicit Assembly(const Model& model);
 
   /// force = -dU/du at every node. All spans 3 a node; displacement in m, force in N.
   void internal_force(std::span<const double> displacement, std::span<double> force) noexcept;
@@ -22,14 +21,12 @@ class Assembly {
                          std::span<double> product) noexcept;
 
   const Model& model() const { return model_; }
-  const Team& team() const { return team_; }
 
  private:
   std::span<double> slots_of(std::size_t part) noexcept;
   void gather(double factor, std::span<double> sums) const noexcept;
 
   const Model& model_;
-  Team team_;
   std::vector<std::size_t> slot_begin_;  ///< of each part
   std::vector<double> slots_;            ///< 3 a slot
   std::vector<Index> incidence_begin_;   ///< of each node, and the end

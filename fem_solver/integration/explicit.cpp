@@ -39,11 +39,13 @@ ExplicitSolver::ExplicitSolver(const Model& model, Assembly& assembly) : model_(
   state_.velocity.assign(values, 0);
   state_.force.assign(values, 0);
   state_.reactions.assign(3 * supported_nodes(model), 0);
+  for (const auto& initial : model.initial_velocities)
+    for (const Index node : initial.nodes) Vector3::Map(&state_.velocity[3 * node]) = initial.velocity;
   inverse_mass_.resize(model.node_masses.size());
   std::ranges::transform(model.node_masses, inverse_mass_.begin(),
                          [](double m) { return m > 0 ? 1 / m : 0; });
   if (model.damping.stiffness > 0) damping_force_.resize(values);
-  partial_.resize(static_cast<std::size_t>(Team::blocks(model.nodes())));
+  sum_.reserve(model.nodes());
 }
 
 void ExplicitSolver::step(double time, double step) {
@@ -67,19 +69,16 @@ void ExplicitSolver::evaluate_forces(double time) noexcept {
 
 void ExplicitSolver::subtract_stiffness_damping() noexcept {
   assembly_.stiffness_product(state_.displacement, state_.velocity, damping_force_);
-  assembly_.team().run(static_cast<Index>(state_.force.size()), [&](Range values) {
-    for (Index i = values.begin; i < values.end; ++i) {
-      damping_force_[i] *= model_.damping.stiffness;
-      state_.force[i] -= damping_force_[i];
-    }
+  core::parallel_for(static_cast<std::int64_t>(state_.force.size()), [&](std::int64_t i) {
+    damping_force_[i] *= model_.damping.stiffness;
+    state_.force[i] -= damping_force_[i];
   });
 }
 
 void ExplicitSolver::add_external_forces(double time) noexcept {
   if (model_.gravity) {
-    assembly_.team().run(model_.nodes(), [&](Range nodes) {
-      for (Index i = nodes.begin; i < nodes.end; ++i)
-        Vector3::Map(&state_.force[3 * i]) += model_.node_masses[i] * *model_.gravity;
+    core::parallel_for(model_.nodes(), [&](std::int64_t i) {
+      Vector3::Map(&state_.force[3 * i]) += model_.node_masses[i] * *model_.gravity;
     });
   }
   for (const auto& load : model_.loads) {
@@ -112,21 +111,17 @@ double ExplicitSolver::advance_nodes(double step) noexcept {
   const double half_damping = 0.5 * model_.damping.mass * state_.kick;
   const double keep = (1 - half_damping) / (1 + half_damping), gain = state_.kick / (1 + half_damping);
   const double half_before = 0.5 * state_.previous_step, half_after = 0.5 * step;
-  const double sum = assembly_.team().sum(model_.nodes(), partial_, [&](Range nodes) {
-    double sums[3] = {0, 0, 0};
-    for (Index node = nodes.begin; node < nodes.end; ++node) {
-      const double mass = model_.node_masses[node], kick_over_mass = gain * inverse_mass_[node];
-      for (Index c = 0; c < 3; ++c) {
-        const Index i = 3 * node + c;
-        const double before = state_.velocity[i];
-        const double after = (damped ? keep * before : before) + kick_over_mass * state_.force[i];
-        state_.velocity[i] = after;
-        state_.displacement[i] += step * after;
-        sums[c] += damped ? mass * (before + after) * (half_before * before + half_after * after)
-                          : mass * after * after;
-      }
+  const double sum = sum_(model_.nodes(), 0.0, [&](std::int64_t node) {
+    const double mass = model_.node_masses[node], kick_over_mass = gain * inverse_mass_[node];
+    double sum_of_node = 0;
+    for (std::int64_t i = 3 * node; i < 3 * node + 3; ++i) {
+      const double before = state_.velocity[i];
+      const double after = (damped ? keep * before : before) + kick_over_mass * state_.force[i];
+      state_.velocity[i] = after;
+      state_.displacement[i] += step * after;
+      sum_of_node += damped ? (before + after) * (half_before * before + half_after * after) : after * after;
     }
-    return sums[0] + sums[1] + sums[2];
+    return mass * sum_of_node;
   });
   if constexpr (damped) state_.damped += 0.5 * model_.damping.mass * sum;
   return sum;

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "core/parallel.hpp"
 #include "fem_solver/assembly/assembly.hpp"
 #include "fem_solver/model/model.hpp"
 
@@ -113,7 +114,7 @@ class ExplicitSolver {
   InterfaceForce interface_;
   std::vector<double> inverse_mass_;   ///< 1/kg; 0 for a node without mass
   std::vector<double> damping_force_;  ///< N; b K v, only where the scene names stiffness damping
-  std::vector<double> partial_;        ///< sums of blocks
+  core::OrderedSum<> sum_;
 };
 
 }  // namespace talus::fem

@@ -51,6 +51,12 @@ struct NodalLoad {
   TimeTable history;
 };
 
+/// The same velocity of some nodes at the start.
+struct InitialVelocity {
+  std::vector<Index> nodes;
+  Vector3 velocity = Vector3::Zero();  ///< m/s
+};
+
 /// Rayleigh damping C = mass M + stiffness K, with the current tangent K.
 struct Damping {
   double mass = 0;       ///< 1/s
@@ -64,6 +70,7 @@ struct Model {
   std::map<std::string, std::vector<Index>> node_sets;
   std::vector<Support> supports;
   std::vector<NodalLoad> loads;
+  std::vector<InitialVelocity> initial_velocities;
   std::optional<Vector3> gravity;  ///< m/s^2
   Damping damping;
 

@@ -19,16 +19,16 @@ TwoNodeBatch<Compression>::TwoNodeBatch(const AxialPart& part, std::vector<std::
 
 template <class Compression>
 void TwoNodeBatch<Compression>::internal_force(std::span<const double> displacement, std::span<double> slots,
-                                               Range range) const noexcept {
-  for (Index e = range.begin; e < range.end; ++e)
+                                               core::Block elements) const noexcept {
+  for (auto e = static_cast<Index>(elements.begin); e < elements.end; ++e)
     Vector3::Map(&slots[3 * at(e)]) = element(e).force(difference(displacement, e));
 }
 
 template <class Compression>
 void TwoNodeBatch<Compression>::stiffness_product(std::span<const double> displacement,
                                                   std::span<const double> direction, std::span<double> slots,
-                                                  Range range) const noexcept {
-  for (Index e = range.begin; e < range.end; ++e)
+                                                  core::Block elements) const noexcept {
+  for (auto e = static_cast<Index>(elements.begin); e < elements.end; ++e)
     Vector3::Map(&slots[3 * at(e)]) =
         element(e).stiffness_product(difference(displacement, e), difference(direction, e));
 }

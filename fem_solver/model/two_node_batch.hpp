@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "core/parallel.hpp"
 #include "fem_solver/elements/axial.hpp"
 #include "fem_solver/model/index.hpp"
 
@@ -39,9 +40,9 @@ class TwoNodeBatch {
   }
 
   void internal_force(std::span<const double> displacement, std::span<double> slots,
-                      Range range) const noexcept;
+                      core::Block elements) const noexcept;
   void stiffness_product(std::span<const double> displacement, std::span<const double> direction,
-                         std::span<double> slots, Range range) const noexcept;
+                         std::span<double> slots, core::Block elements) const noexcept;
   double energy(std::span<const double> displacement) const noexcept;
   void add_mass(std::span<double> node_masses) const noexcept;
 

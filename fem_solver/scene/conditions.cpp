@@ -6,8 +6,9 @@ namespace talus::fem {
 namespace {
 
 void describe_history(core::Fields& fields, std::vector<std::pair<double, double>>& points) {
-  fields.with_default("over_time", points,
-                      {.unit = "s, ", .help = "pairs of time and factor, linear in between; 1 throughout where absent"});
+  fields.with_default(
+      "over_time", points,
+      {.unit = "s, ", .help = "pairs of time and factor, linear in between; 1 throughout where absent"});
   fields.rule(std::ranges::is_sorted(points, std::ranges::less_equal{}, &std::pair<double, double>::first) ||
                   std::ranges::adjacent_find(points, std::ranges::greater_equal{},
                                              &std::pair<double, double>::first) == points.end(),
@@ -19,7 +20,8 @@ void describe_history(core::Fields& fields, std::vector<std::pair<double, double
 void describe(core::Fields& fields, BoxScene& box) {
   fields.required("low", box.low, {.unit = "m", .help = "the corner with the smallest coordinates"});
   fields.required("high", box.high, {.unit = "m", .help = "the corner with the largest coordinates"});
-  fields.rule((box.low.array() <= box.high.array()).all(), "high", "must not be below `low` in any direction");
+  fields.rule((box.low.array() <= box.high.array()).all(), "high",
+              "must not be below `low` in any direction");
 }
 
 void describe_selection(core::Fields& fields, NodeSelection& selection) {
@@ -28,11 +30,14 @@ void describe_selection(core::Fields& fields, NodeSelection& selection) {
                   {.help = "a node set: `net.rim`, a part's name for all its nodes, or one of `node_sets`"});
   fields.optional("at", selection.at, {.unit = "m", .help = "the node at this point of the reference state"});
   fields.section("box", selection.box, "all nodes inside a box of the reference state, its faces included");
-  const int ways = int(selection.nodes.has_value()) + int(selection.at.has_value()) + int(selection.box.has_value());
+  const int ways =
+      int(selection.nodes.has_value()) + int(selection.at.has_value()) + int(selection.box.has_value());
   fields.rule(ways == 1, "nodes", "needs exactly one of `nodes`, `at` and `box`");
 }
 
-void describe(core::Fields& fields, NodeSelection& selection) { describe_selection(fields, selection); }
+void describe(core::Fields& fields, NodeSelection& selection) {
+  describe_selection(fields, selection);
+}
 
 void describe(core::Fields& fields, SupportScene& support) {
   describe_selection(fields, support.where);
@@ -42,7 +47,8 @@ void describe(core::Fields& fields, SupportScene& support) {
   fields.optional("displacement", support.displacement,
                   {.unit = "m", .help = "moves the held directions by this times `over_time`"});
   describe_history(fields, support.over_time);
-  fields.rule(support.over_time.empty() || support.displacement, "over_time", "needs `displacement` beside it");
+  fields.rule(support.over_time.empty() || support.displacement, "over_time",
+              "needs `displacement` beside it");
 }
 
 void describe(core::Fields& fields, LoadScene& load) {
@@ -53,7 +59,8 @@ void describe(core::Fields& fields, LoadScene& load) {
 
 void describe(core::Fields& fields, PointMassScene& mass) {
   describe_selection(fields, mass.where);
-  fields.required("mass", mass.mass, {.unit = "kg", .range = core::positive, .help = "added to each of the nodes"});
+  fields.required("mass", mass.mass,
+                  {.unit = "kg", .range = core::positive, .help = "added to each of the nodes"});
 }
 
 void describe(core::Fields& fields, InitialVelocityScene& initial) {

@@ -18,7 +18,7 @@ void describe(core::Fields& fields, BoxScene& box);
 
 /// One of three ways to name nodes, at the level of whoever needs them.
 struct NodeSelection {
-  std::string place;                ///< file and line, for errors found while building
+  std::string place;                 ///< file and line, for errors found while building
   std::optional<std::string> nodes;  ///< "net.rim", a part's name, or one of `node_sets`
   std::optional<core::Vector3> at;   ///< m
   std::optional<BoxScene> box;
@@ -28,8 +28,8 @@ void describe(core::Fields& fields, NodeSelection& selection);
 
 struct SupportScene {
   NodeSelection where;
-  std::string fix;                                  ///< letters of xyz
-  std::optional<core::Vector3> displacement;        ///< m
+  std::string fix;                                   ///< letters of xyz
+  std::optional<core::Vector3> displacement;         ///< m
   std::vector<std::pair<double, double>> over_time;  ///< s, factor
 };
 void describe(core::Fields& fields, SupportScene& support);

@@ -24,8 +24,8 @@ mesh::NodeSet all_nodes(const mesh::Surface& surface) {
 
 Index node_number(double written, const mesh::Surface& surface) {
   if (written != std::floor(written) || written < 0 || written >= surface.node_count())
-    throw core::ConfigError(fmt::format("an element names node {}, but the nodes are numbered 0 to {}", written,
-                                        surface.node_count() - 1));
+    throw core::ConfigError(fmt::format("an element names node {}, but the nodes are numbered 0 to {}",
+                                        written, surface.node_count() - 1));
   return static_cast<Index>(written);
 }
 
@@ -40,16 +40,19 @@ void describe(core::Fields& fields, PolylineScene& polyline) {
 
 void describe(core::Fields& fields, MeshScene& mesh) {
   fields.required("nodes", mesh.nodes, {.unit = "m", .help = "positions of the nodes, numbered from 0"});
-  fields.with_default("segments", mesh.segments, {.range = core::not_negative, .help = "pairs of node numbers"});
+  fields.with_default("segments", mesh.segments,
+                      {.range = core::not_negative, .help = "pairs of node numbers"});
   fields.with_default("triangles", mesh.triangles,
                       {.range = core::not_negative, .help = "triples of node numbers, counter-clockwise"});
-  fields.rule(mesh.segments.empty() != mesh.triangles.empty(), "segments", "needs either `segments` or `triangles`");
+  fields.rule(mesh.segments.empty() != mesh.triangles.empty(), "segments",
+              "needs either `segments` or `triangles`");
 }
 
 void describe(core::Fields& fields, TriangleGridScene& grid) {
   fields.required("corner", grid.corner, {.unit = "m", .help = "the corner the rectangle starts from"});
   fields.required("size", grid.size, {.unit = "m", .range = core::positive, .help = "the two side lengths"});
-  fields.required("divisions", grid.divisions, {.range = {.low = 1, .high = 1e5}, .help = "cells along both sides"});
+  fields.required("divisions", grid.divisions,
+                  {.range = {.low = 1, .high = 1e5}, .help = "cells along both sides"});
   fields.with_default("along", grid.along, {.help = "direction of the first side"});
   fields.with_default("across", grid.across, {.help = "direction of the second side"});
   fields.rule(grid.size.size() == 2, "size", "needs two lengths");
@@ -59,7 +62,8 @@ void describe(core::Fields& fields, TriangleGridScene& grid) {
 }
 
 void describe(core::Fields& fields, ThroughScene& through) {
-  fields.required("nodes", through.nodes, {.help = "node sets the rope runs through, in this order: [net.edge_south]"});
+  fields.required("nodes", through.nodes,
+                  {.help = "node sets the rope runs through, in this order: [net.edge_south]"});
   fields.optional("from", through.from, {.unit = "m", .help = "an own end before the first of these nodes"});
   fields.optional("to", through.to, {.unit = "m", .help = "an own end after the last of these nodes"});
 }
@@ -80,8 +84,9 @@ mesh::Net generate(const PolylineScene& polyline) {
     const core::Vector3 &a = polyline.points[i], &b = polyline.points[i + 1];
     for (std::int64_t k = 1; k <= polyline.divisions; ++k) {
       const Index last = net.surface.node_count();
-      append(net.surface, k == polyline.divisions ? b : a + (b - a) * static_cast<double>(k) /
-                                                                static_cast<double>(polyline.divisions));
+      append(net.surface, k == polyline.divisions ? b
+                                                  : a + (b - a) * static_cast<double>(k) /
+                                                            static_cast<double>(polyline.divisions));
       net.surface.segments.push_back({last - 1, last});
     }
     corners.nodes.push_back(net.surface.node_count() - 1);
@@ -98,8 +103,8 @@ mesh::Net generate(const MeshScene& scene) {
   for (const auto& [a, b] : scene.segments)
     net.surface.segments.push_back({node_number(a, net.surface), node_number(b, net.surface)});
   for (const auto& t : scene.triangles)
-    net.surface.triangles.push_back({node_number(t.x(), net.surface), node_number(t.y(), net.surface),
-                                     node_number(t.z(), net.surface)});
+    net.surface.triangles.push_back(
+        {node_number(t.x(), net.surface), node_number(t.y(), net.surface), node_number(t.z(), net.surface)});
   return net;
 }
 
@@ -119,7 +124,8 @@ mesh::Net generate(const TriangleGridScene& grid) {
       net.surface.triangles.push_back(rising ? std::array{a, c, d} : std::array{b, c, d});
     }
   }
-  mesh::NodeSet south{"edge_south", {}}, east{"edge_east", {}}, north{"edge_north", {}}, west{"edge_west", {}};
+  mesh::NodeSet south{"edge_south", {}}, east{"edge_east", {}}, north{"edge_north", {}},
+      west{"edge_west", {}};
   for (Index i = 0; i <= columns; ++i) south.nodes.push_back(node(i, 0));
   for (Index j = 0; j <= rows; ++j) east.nodes.push_back(node(columns, j));
   for (Index i = columns; i >= 0; --i) north.nodes.push_back(node(i, rows));

@@ -24,13 +24,14 @@ void describe(core::Fields& fields, PolylineScene& polyline);
 
 /// `mesh:` nodes and elements written out. Node sets: nodes, and one a node named by its number.
 struct MeshScene {
-  std::vector<core::Vector3> nodes;                   ///< m
-  std::vector<std::pair<double, double>> segments;    ///< numbers of nodes, from 0
-  std::vector<core::Vector3> triangles;               ///< numbers of nodes, from 0
+  std::vector<core::Vector3> nodes;                 ///< m
+  std::vector<std::pair<double, double>> segments;  ///< numbers of nodes, from 0
+  std::vector<core::Vector3> triangles;             ///< numbers of nodes, from 0
 };
 void describe(core::Fields& fields, MeshScene& mesh);
 
-/// `triangle_grid:` a rectangle of right-angled triangles, their diagonals alternating. Node sets as a square net's.
+/// `triangle_grid:` a rectangle of right-angled triangles, their diagonals alternating. Node sets as a square
+/// net's.
 struct TriangleGridScene {
   core::Vector3 corner = core::Vector3::Zero();  ///< m
   std::vector<double> size;                      ///< m; two
@@ -42,13 +43,14 @@ void describe(core::Fields& fields, TriangleGridScene& grid);
 
 /// `through:` a rope through nodes of other parts, in the order of their sets. Node sets: nodes, start, end.
 struct ThroughScene {
-  std::vector<std::string> nodes;          ///< node sets
-  std::optional<core::Vector3> from;       ///< m; an own node before the first
-  std::optional<core::Vector3> to;         ///< m; an own node after the last
+  std::vector<std::string> nodes;     ///< node sets
+  std::optional<core::Vector3> from;  ///< m; an own node before the first
+  std::optional<core::Vector3> to;    ///< m; an own node after the last
 };
 void describe(core::Fields& fields, ThroughScene& through);
 
-using ShapeScene = std::variant<mesh::SquareNetScene, PolylineScene, MeshScene, TriangleGridScene, ThroughScene>;
+using ShapeScene =
+    std::variant<mesh::SquareNetScene, PolylineScene, MeshScene, TriangleGridScene, ThroughScene>;
 void describe_shape(core::Fields& fields, ShapeScene& shape);
 
 mesh::Net generate(const PolylineScene& polyline);

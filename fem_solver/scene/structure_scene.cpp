@@ -5,41 +5,57 @@ namespace {
 
 void describe_axial(core::Fields& fields, AxialScene& axial) {
   fields.required("area", axial.area, {.unit = "m^2", .range = core::positive, .help = "cross-section"});
-  fields.required("density", axial.density, {.unit = "kg/m^3", .range = core::positive, .help = "mass over volume"});
+  fields.required("density", axial.density,
+                  {.unit = "kg/m^3", .range = core::positive, .help = "mass over volume"});
   fields.required("youngs_modulus", axial.youngs_modulus,
-                  {.unit = "Pa", .range = core::positive, .help = "between Green-Lagrange strain and second Piola-Kirchhoff stress"});
-  fields.with_default("prestress", axial.prestress,
-                      {.unit = "Pa", .help = "second Piola-Kirchhoff stress of the reference state, tension positive"});
+                  {.unit = "Pa",
+                   .range = core::positive,
+                   .help = "between Green-Lagrange strain and second Piola-Kirchhoff stress"});
+  fields.with_default(
+      "prestress", axial.prestress,
+      {.unit = "Pa", .help = "second Piola-Kirchhoff stress of the reference state, tension positive"});
 }
 
 }  // namespace
 
-void describe(core::Fields& fields, BarScene& bar) { describe_axial(fields, bar); }
-void describe(core::Fields& fields, CableScene& cable) { describe_axial(fields, cable); }
+void describe(core::Fields& fields, BarScene& bar) {
+  describe_axial(fields, bar);
+}
+void describe(core::Fields& fields, CableScene& cable) {
+  describe_axial(fields, cable);
+}
 
 void describe(core::Fields& fields, PartScene& part) {
   part.place = fields.place();
   describe_shape(fields, part.shape);
-  fields.one_of(part.element, {{"bar", "carries tension and compression"}, {"cable", "carries tension only"}});
+  fields.one_of(part.element,
+                {{"bar", "carries tension and compression"}, {"cable", "carries tension only"}});
 }
 
 void describe(core::Fields& fields, DampingScene& damping) {
-  fields.with_default("mass", damping.mass,
-                      {.unit = "1/s", .range = core::not_negative, .help = "force against velocity, per mass"});
+  fields.with_default(
+      "mass", damping.mass,
+      {.unit = "1/s", .range = core::not_negative, .help = "force against velocity, per mass"});
   fields.with_default("stiffness", damping.stiffness,
-                      {.unit = "s", .range = core::not_negative, .help = "force against strain rate, per stiffness; lowers the step limit"});
+                      {.unit = "s",
+                       .range = core::not_negative,
+                       .help = "force against strain rate, per stiffness; lowers the step limit"});
 }
 
 void describe(core::Fields& fields, WeldScene& weld) {
   fields.required("tolerance", weld.tolerance,
-                  {.unit = "m", .range = core::not_negative, .help = "nodes of different parts closer than this become one"});
+                  {.unit = "m",
+                   .range = core::not_negative,
+                   .help = "nodes of different parts closer than this become one"});
 }
 
 void describe(core::Fields&, ExplicitScene&) {}
 
 void describe(core::Fields& fields, StructureScene& structure) {
-  fields.optional("solver", structure.solver, {.help = "another program that plays the structure's part, e.g. my_solver.py"});
-  fields.map("parts", structure.parts, "nets, ropes, posts and membranes by name: a shape and an element each", 1);
+  fields.optional("solver", structure.solver,
+                  {.help = "another program that plays the structure's part, e.g. my_solver.py"});
+  fields.map("parts", structure.parts,
+             "nets, ropes, posts and membranes by name: a shape and an element each", 1);
   fields.section("weld", structure.weld, "joins parts where their nodes coincide");
   fields.map("node_sets", structure.node_sets, "nodes by name, for supports, loads and ropes");
   fields.list("supports", structure.supports, "nodes whose motion is given");
@@ -48,11 +64,17 @@ void describe(core::Fields& fields, StructureScene& structure) {
   fields.list("initial_velocities", structure.initial_velocities, "velocities of nodes at the start");
   fields.optional("gravity", structure.gravity, {.unit = "m/s^2", .help = "acceleration of free fall"});
   fields.section("damping", structure.damping, "Rayleigh damping of all parts");
-  fields.one_of(structure.method, {{"explicit", "central differences; what a scene gets that names no method"}});
+  fields.one_of(structure.method,
+                {{"explicit", "central differences; what a scene gets that names no method"}});
   fields.optional("step", structure.step,
-                  {.unit = "s", .range = core::positive, .help = "the structure's own step; `time.step` where absent, or 0.9 of the limit where that is absent too"});
-  fields.choice("unstable_step", structure.unstable_step, {"refused", "allowed"}, "what happens to an explicit step above the limit of stability");
-  fields.with_default("threads", structure.threads, {.range = {.low = 1, .high = 256}, .help = "threads of the element and node loops"});
+                  {.unit = "s",
+                   .range = core::positive,
+                   .help = "the structure's own step; `time.step` where absent, or 0.9 of the limit where "
+                           "that is absent too"});
+  fields.choice("unstable_step", structure.unstable_step, {"refused", "allowed"},
+                "what happens to an explicit step above the limit of stability");
+  fields.with_default("threads", structure.threads,
+                      {.range = {.low = 1, .high = 256}, .help = "threads of the element and node loops"});
 }
 
 }  // namespace talus::fem

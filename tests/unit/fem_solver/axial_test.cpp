@@ -11,7 +11,9 @@ using namespace talus::fem;
 /// Random axial elements and states in all directions, taut and slack, at strains up to about 1/2.
 class RandomStates {
  public:
-  Vector3 vector(double size) { return size * Vector3(uniform_(random_), uniform_(random_), uniform_(random_)); }
+  Vector3 vector(double size) {
+    return size * Vector3(uniform_(random_), uniform_(random_), uniform_(random_));
+  }
   template <class Compression>
   AxialElement<Compression> element() {
     const Vector3 reference = Vector3(1, 0.3, -0.2) + vector(0.5);
@@ -24,7 +26,8 @@ class RandomStates {
   std::uniform_real_distribution<double> uniform_{-1, 1};
 };
 
-/// Central differences are exact to about step^2 = 1e-10 of the third derivative, and to rounding over step = 1e-11 of the value.
+/// Central differences are exact to about step^2 = 1e-10 of the third derivative, and to rounding over step =
+/// 1e-11 of the value.
 constexpr double difference_step = 1e-5;
 constexpr double difference_tolerance = 1e-8;
 
@@ -34,13 +37,16 @@ void check_derivatives() {
   for (int sample = 0; sample < 200; ++sample) {
     const auto element = states.element<Compression>();
     const Vector3 stretch = states.vector(0.4);
-    if (std::abs(element.trial_stress(element.strain(stretch))) < 1e3) continue;  // the kink between taut and slack
+    if (std::abs(element.trial_stress(element.strain(stretch))) < 1e3)
+      continue;  // the kink between taut and slack
     const double scale = element.section.area * (element.section.youngs_modulus + 5e5);
     for (int c = 0; c < 3; ++c) {
       const Vector3 h = difference_step * Vector3::Unit(c);
-      const double slope = (element.energy(stretch + h) - element.energy(stretch - h)) / (2 * difference_step);
+      const double slope =
+          (element.energy(stretch + h) - element.energy(stretch - h)) / (2 * difference_step);
       CHECK(element.force(stretch)[c] == Approx(slope).margin(difference_tolerance * scale));
-      const Vector3 column = (element.force(stretch + h) - element.force(stretch - h)) / (2 * difference_step);
+      const Vector3 column =
+          (element.force(stretch + h) - element.force(stretch - h)) / (2 * difference_step);
       CHECK((element.stiffness(stretch).col(c) - column).norm() < difference_tolerance * scale);
     }
   }
@@ -48,7 +54,8 @@ void check_derivatives() {
 
 }  // namespace
 
-TEST_CASE("the force of a bar and of a cable is the derivative of its energy, the stiffness that of its force") {
+TEST_CASE(
+    "the force of a bar and of a cable is the derivative of its energy, the stiffness that of its force") {
   check_derivatives<CarriesCompression>();
   check_derivatives<TensionOnly>();
 }
@@ -83,7 +90,8 @@ TEST_CASE("the stiffness equals (EA/L)(1 + 3e + S_pre/E) t t^T + (N/l)(I - t t^T
 }
 
 TEST_CASE("a cable shorter than its slack length carries nothing and has no stiffness") {
-  const AxialElement<TensionOnly> cable{{1, 0, 0}, 1, {.area = 1e-4, .youngs_modulus = 1e9, .prestress = 1e6}};
+  const AxialElement<TensionOnly> cable{
+      {1, 0, 0}, 1, {.area = 1e-4, .youngs_modulus = 1e9, .prestress = 1e6}};
   const Vector3 slack(-0.1, 0, 0);
   CHECK(cable.force(slack).isZero(0));
   CHECK(cable.stiffness(slack).isZero(0));
@@ -92,7 +100,8 @@ TEST_CASE("a cable shorter than its slack length carries nothing and has no stif
 }
 
 TEST_CASE("a segment squeezed to nothing gives a finite force") {
-  const AxialElement<CarriesCompression> bar{{1, 2, 3}, 1 / std::sqrt(14.0), {.area = 1e-4, .youngs_modulus = 1e9, .prestress = 0}};
+  const AxialElement<CarriesCompression> bar{
+      {1, 2, 3}, 1 / std::sqrt(14.0), {.area = 1e-4, .youngs_modulus = 1e9, .prestress = 0}};
   CHECK(bar.force({-1, -2, -3}).isZero(0));
 }
 

@@ -41,8 +41,7 @@ double total(const EnergyBalance& b) {
 }
 
 struct Run {
-  explicit Run(Model built, int threads = 1)
-      : model(std::move(built)), assembly(model, Team(threads)), solver(model, assembly) {}
+  explicit Run(Model built) : model(std::move(built)), assembly(model), solver(model, assembly) {}
   void steps(int count, double step) {
     for (int k = 0; k < count; ++k, time += step) solver.step(time, step);
   }
@@ -147,9 +146,11 @@ TEST_CASE("one, two and four threads give the same bits") {
     Model model = tests::net<CableBatch>(wire, 0.1, 60);
     model.damping = {.mass = 20, .stiffness = 1e-7};
     model.gravity = Vector3(0, 0, -9.81);
-    Run run(std::move(model), threads);
+    talus::core::set_thread_count(threads);
+    Run run(std::move(model));
     for (Index i = 0; i < 300; ++i) run.solver.state().velocity[5000 + i] = std::sin(i);
     run.steps(100, 1e-4);
+    talus::core::set_thread_count(1);
     return run.solver.state();
   };
   const ExplicitState one = run_with(1);

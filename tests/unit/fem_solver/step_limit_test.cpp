@@ -16,7 +16,7 @@ const AxialPart bar{.section = {.area = 1e-4, .youngs_modulus = 2e11, .prestress
 const AxialPart string{.section = {.area = 1e-4, .youngs_modulus = 1e3, .prestress = 1e9}, .density = 8000};
 
 double frequency_at_rest(const Model& model) {
-  Assembly assembly(model, Team(1));
+  Assembly assembly(model);
   return largest_frequency(assembly, std::vector<double>(model.reference.size(), 0.0));
 }
 
@@ -52,7 +52,7 @@ TEST_CASE("a free oscillator is stable just below the limit and blows up just ab
       model.damping = {.mass = mass_damping, .stiffness = stiffness_damping};
       const double limit = stable_step(frequency_at_rest(model), model.damping);
       const auto largest_after = [&](double step) {
-        Assembly assembly(model, Team(1));
+        Assembly assembly(model);
         ExplicitSolver solver(model, assembly);
         solver.state().velocity[3] = 1e-12;
         for (int k = 0; k < 2000; ++k) solver.step(k * step, step);
@@ -67,7 +67,7 @@ TEST_CASE("a free oscillator is stable just below the limit and blows up just ab
 TEST_CASE("stretching a bar by a fifth raises its own limit frequency squared by 1 + 3 e") {
   Model model = tests::chain<BarBatch>(bar, 1, 1);
   model.supports = {tests::fixed({0}), tests::fixed({1}, {false, true, true})};
-  Assembly assembly(model, Team(1));
+  Assembly assembly(model);
   const double e = 0.2, elongation = std::sqrt(1 + 2 * e) - 1;
   const std::vector<double> displacement{0, 0, 0, elongation, 0, 0};
   const double ratio = largest_frequency(assembly, displacement) / frequency_at_rest(model);
@@ -76,7 +76,7 @@ TEST_CASE("stretching a bar by a fifth raises its own limit frequency squared by
 
 TEST_CASE("the bounds name waves along and across each part and put the whole structure first") {
   Model model = tests::chain<CableBatch>(string, 2, 16);
-  Assembly assembly(model, Team(1));
+  Assembly assembly(model);
   const auto bounds = step_bounds(assembly, std::vector<double>(model.reference.size(), 0.0));
   REQUIRE(bounds.size() == 3);
   CHECK(bounds[0].name == "highest frequency of the structure");

@@ -14,7 +14,7 @@ TEST_CASE("a suddenly loaded, damped bar moves as computed independently") {
   model.supports = {tests::fixed({0}), tests::fixed({1, 2}, {false, true, true})};
   model.loads = {tests::load(2, {1e7, 0, 0})};
   model.damping = {.mass = 471.88, .stiffness = 5.1e-6};
-  Assembly assembly(model, Team(1));
+  Assembly assembly(model);
   ExplicitSolver solver(model, assembly);
 
   const double step = 1e-8;

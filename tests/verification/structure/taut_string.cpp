@@ -17,7 +17,7 @@ TEST_CASE("a point load on a taut string settles where P = 2 N d/l with the elem
   model.supports = {tests::fixed({0, 2})};
   model.loads = {tests::load(1, {0, 0, -P})};
   model.damping.mass = 200;
-  Assembly assembly(model, Team(1));
+  Assembly assembly(model);
   ExplicitSolver solver(model, assembly);
   const double step = 1e-4;
   for (int k = 0; k < 20000; ++k) solver.step(k * step, step);

@@ -1,0 +1,194 @@
+#include "fem_solver/scene/build_model.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/errors.hpp"
+#include "fem_solver/scene/node_sets.hpp"
+#include "fem_solver/scene/weld.hpp"
+#include "interface_mesh/surface_checks.hpp"
+
+namespace talus::fem {
+namespace {
+
+/// A part between being meshed and becoming a batch: elements by the model's node numbers.
+struct MeshedPart {
+  std::string name;
+  const PartScene* scene = nullptr;
+  std::vector<std::array<Index, 2>> segments;
+  std::vector<std::array<Index, 3>> triangles;
+};
+
+class Builder {
+ public:
+  explicit Builder(const StructureScene& scene) : scene_(scene) {}
+
+  Model build() {
+    mesh_parts();
+    if (scene_.weld) weld();
+    for (const auto& [name, selection] : scene_.node_sets) model_.node_sets[name] = select_nodes(model_, selection);
+    for (const auto& part : scene_.parts)
+      if (const auto* through = std::get_if<ThroughScene>(&part.second.shape)) lead_through(part.first, part.second, *through);
+    for (auto& part : parts_) add_elements(part);
+    lump_masses(model_);
+    add_conditions();
+    check_masses();
+    return std::move(model_);
+  }
+
+ private:
+  void mesh_parts();
+  void add_mesh(const std::string& name, const PartScene& part, const mesh::Net& net);
+  void weld();
+  void lead_through(const std::string& name, const PartScene& part, const ThroughScene& through);
+  Index add_node(const Vector3& position);
+  void add_elements(MeshedPart& part);
+  void add_conditions();
+  void check_masses() const;
+
+  const StructureScene& scene_;
+  Model model_;
+  std::vector<MeshedPart> parts_;
+  std::vector<Index> part_of_node_;
+};
+
+void Builder::mesh_parts() {
+  for (const auto& [name, part] : scene_.parts) {
+    std::visit([&, &name = name, &part = part](const auto& shape) {
+      using Shape = std::decay_t<decltype(shape)>;
+      if constexpr (!std::is_same_v<Shape, ThroughScene>) add_mesh(name, part, generate(shape));
+    }, part.shape);
+  }
+}
+
+void Builder::add_mesh(const std::string& name, const PartScene& part, const mesh::Net& net) {
+  mesh::check(net.surface, part.place + ": structure.parts." + name);
+  const Index first = model_.nodes();
+  model_.reference.insert(model_.reference.end(), net.surface.positions.begin(), net.surface.positions.end());
+  part_of_node_.resize(static_cast<std::size_t>(model_.nodes()), static_cast<Index>(parts_.size()));
+  MeshedPart& meshed = parts_.emplace_back(MeshedPart{name, &part, {}, {}});
+  for (const auto& [a, b] : net.surface.segments) meshed.segments.push_back({first + a, first + b});
+  for (const auto& [a, b, c] : net.surface.triangles) meshed.triangles.push_back({first + a, first + b, first + c});
+  for (const auto& set : net.node_sets) {
+    auto& nodes = model_.node_sets[set.name == "nodes" ? name : name + "." + set.name];
+    for (const Index node : set.nodes) nodes.push_back(first + node);
+  }
+}
+
+void Builder::weld() {
+  const std::vector<Index> becomes = weld_map(model_.reference, part_of_node_, scene_.weld->tolerance);
+  std::vector<Index> number(becomes.size());
+  std::vector<double> positions;
+  for (std::size_t i = 0; i < becomes.size(); ++i) {
+    const auto target = static_cast<std::size_t>(becomes[i]);
+    number[i] = target == i ? static_cast<Index>(positions.size() / 3) : number[target];
+    if (target == i) positions.insert(positions.end(), &model_.reference[3 * i], &model_.reference[3 * i] + 3);
+  }
+  const auto renumber = [&](auto& nodes) {
+    for (Index& node : nodes) node = number[static_cast<std::size_t>(node)];
+  };
+  for (auto& part : parts_) {
+    for (auto& segment : part.segments) renumber(segment);
+    for (auto& triangle : part.triangles) renumber(triangle);
+  }
+  for (auto& [name, nodes] : model_.node_sets) renumber(nodes);
+  model_.reference = std::move(positions);
+}
+
+Index Builder::add_node(const Vector3& position) {
+  model_.reference.insert(model_.reference.end(), position.begin(), position.end());
+  return model_.nodes() - 1;
+}
+
+void Builder::lead_through(const std::string& name, const PartScene& part, const ThroughScene& through) {
+  std::vector<Index> nodes;
+  if (through.from) nodes.push_back(add_node(*through.from));
+  for (const auto& set : through.nodes)
+    for (const Index node : find_node_set(model_, part.place, set))
+      if (nodes.empty() || nodes.back() != node) nodes.push_back(node);
+  if (through.to) nodes.push_back(add_node(*through.to));
+  MeshedPart& meshed = parts_.emplace_back(MeshedPart{name, &part, {}, {}});
+  for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
+    if ((model_.position(nodes[i]) - model_.position(nodes[i + 1])).isZero(0))
+      throw core::ConfigError(fmt::format("{}: structure.parts.{}: the rope passes twice through the same point, at {}", part.place,
+                                          name, node_name(model_, nodes[i])));
+    meshed.segments.push_back({nodes[i], nodes[i + 1]});
+  }
+  if (meshed.segments.empty())
+    throw core::ConfigError(fmt::format("{}: structure.parts.{}: a rope needs at least two nodes", part.place, name));
+  model_.node_sets[name] = nodes;
+  model_.node_sets[name + ".start"] = {nodes.front()};
+  model_.node_sets[name + ".end"] = {nodes.back()};
+}
+
+AxialPart axial_part(const AxialScene& scene) {
+  return {.section = {.area = scene.area, .youngs_modulus = scene.youngs_modulus, .prestress = scene.prestress},
+          .density = scene.density};
+}
+
+void need_segments(const MeshedPart& part, const char* element) {
+  if (part.segments.empty())
+    throw core::ConfigError(fmt::format("{}: structure.parts.{}: a {} needs a shape made of lines, not of triangles",
+                                        part.scene->place, part.name, element));
+}
+
+struct ElementMaker {
+  MeshedPart& part;
+  const Model& model;
+
+  ElementBatch operator()(const BarScene& bar) const {
+    need_segments(part, "bar");
+    return BarBatch(axial_part(bar), std::move(part.segments), model.reference);
+  }
+  ElementBatch operator()(const CableScene& cable) const {
+    need_segments(part, "cable");
+    return CableBatch(axial_part(cable), std::move(part.segments), model.reference);
+  }
+};
+
+void Builder::add_elements(MeshedPart& part) {
+  std::vector<Index> nodes;
+  for (const auto& segment : part.segments) nodes.insert(nodes.end(), segment.begin(), segment.end());
+  for (const auto& triangle : part.triangles) nodes.insert(nodes.end(), triangle.begin(), triangle.end());
+  std::ranges::sort(nodes);
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  model_.parts.push_back({part.name, std::visit(ElementMaker{part, model_}, part.scene->element), std::move(nodes)});
+}
+
+std::string label(const char* kind, std::size_t number, const NodeSelection& where) {
+  return where.nodes ? fmt::format("{}", *where.nodes) : fmt::format("{}{}", kind, number);
+}
+
+void Builder::add_conditions() {
+  for (const auto& s : scene_.supports) {
+    Support support{.name = label("support", model_.supports.size(), s.where),
+                    .nodes = select_nodes(model_, s.where),
+                    .fixed = {s.fix.find('x') != std::string::npos, s.fix.find('y') != std::string::npos,
+                              s.fix.find('z') != std::string::npos},
+                    .displacement = s.displacement.value_or(Vector3::Zero()),
+                    .history = {s.over_time}};
+    model_.supports.push_back(std::move(support));
+  }
+  for (const auto& l : scene_.loads)
+    model_.loads.push_back({label("load", model_.loads.size(), l.where), select_nodes(model_, l.where), l.force, {l.over_time}});
+  for (const auto& mass : scene_.point_masses)
+    for (const Index node : select_nodes(model_, mass.where)) model_.node_masses[static_cast<std::size_t>(node)] += mass.mass;
+  for (const auto& initial : scene_.initial_velocities)
+    model_.initial_velocities.push_back({select_nodes(model_, initial.where), initial.velocity});
+  model_.gravity = scene_.gravity;
+  if (scene_.damping) model_.damping = {.mass = scene_.damping->mass, .stiffness = scene_.damping->stiffness};
+}
+
+void Builder::check_masses() const {
+  const auto found = std::ranges::find(model_.node_masses, 0.0);
+  if (found == model_.node_masses.end()) return;
+  const auto node = static_cast<Index>(found - model_.node_masses.begin());
+  throw core::ConfigError("structure: no element is connected to " + node_name(model_, node));
+}
+
+}  // namespace
+
+Model build_model(const StructureScene& scene) { return Builder(scene).build(); }
+
+}  // namespace talus::fem
