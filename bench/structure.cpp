@@ -64,8 +64,8 @@ void measure(int threads) {
   const Model model = cable_net(224);
   talus::core::set_thread_count(threads);
   Assembly assembly(model);
-  ExplicitSolver solver(model, assembly);
   const double step = 0.5 * 0.1 * std::sqrt(7850 / 1e11);
+  ExplicitSolver solver(model, assembly, step);
   constexpr int steps = 200;
   double time = 0;
   const double seconds = best_seconds([&] {

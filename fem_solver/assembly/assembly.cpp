@@ -48,30 +48,40 @@ std::span<double> Assembly::slots_of(std::size_t part) noexcept {
   return std::span(slots_).subspan(3 * slot_begin_[part]);
 }
 
-void Assembly::internal_force(std::span<const double> displacement, std::span<double> force) noexcept {
+/// compute(batch, its slots, range of elements) for every part.
+template <class Compute>
+void Assembly::compute_slots(const Compute& compute) noexcept {
   for (std::size_t p = 0; p < model_.parts.size(); ++p) {
     std::visit(
         [&](const auto& batch) {
           core::parallel_blocks(batch.size(), [&](core::Block elements, std::int64_t) {
-            batch.internal_force(displacement, slots_of(p), elements);
+            compute(batch, slots_of(p), elements);
           });
         },
         model_.parts[p].elements);
   }
+}
+
+void Assembly::internal_force(std::span<const double> displacement, std::span<double> force) noexcept {
+  compute_slots([&](const auto& batch, std::span<double> slots, core::Block elements) {
+    batch.internal_force(displacement, slots, elements);
+  });
   gather(-1, force);
 }
 
 void Assembly::stiffness_product(std::span<const double> displacement, std::span<const double> direction,
                                  std::span<double> product) noexcept {
-  for (std::size_t p = 0; p < model_.parts.size(); ++p) {
-    std::visit(
-        [&](const auto& batch) {
-          core::parallel_blocks(batch.size(), [&](core::Block elements, std::int64_t) {
-            batch.stiffness_product(displacement, direction, slots_of(p), elements);
-          });
-        },
-        model_.parts[p].elements);
-  }
+  compute_slots([&](const auto& batch, std::span<double> slots, core::Block elements) {
+    batch.stiffness_product(displacement, direction, slots, elements);
+  });
+  gather(1, product);
+}
+
+void Assembly::stiffest_product(std::span<const double> displacement, std::span<const double> direction,
+                                std::span<double> product) noexcept {
+  compute_slots([&](const auto& batch, std::span<double> slots, core::Block elements) {
+    batch.stiffest_product(displacement, direction, slots, elements);
+  });
   gather(1, product);
 }
 

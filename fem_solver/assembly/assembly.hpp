@@ -19,10 +19,15 @@ class Assembly {
   /// product = (d2U/du2) direction at every node.
   void stiffness_product(std::span<const double> displacement, std::span<const double> direction,
                          std::span<double> product) noexcept;
+  /// The same with everything taut that can be, for step limits.
+  void stiffest_product(std::span<const double> displacement, std::span<const double> direction,
+                        std::span<double> product) noexcept;
 
   const Model& model() const { return model_; }
 
  private:
+  template <class Compute>
+  void compute_slots(const Compute& compute) noexcept;
   std::span<double> slots_of(std::size_t part) noexcept;
   void gather(double factor, std::span<double> sums) const noexcept;
 

@@ -86,18 +86,31 @@ struct AxialElement {
 
   /// stiffness(stretch) * direction without forming the matrix.
   Vector3 stiffness_product(const Vector3& stretch, const Vector3& direction) const noexcept {
-    const Vector3 d = reference + stretch;
     const double trial = trial_stress(strain(stretch));
-    const double E = Compression::modulus(trial, section.youngs_modulus), S = Compression::stress(trial);
-    const double A_over_L = section.area * inverse_length;
-    return (A_over_L * inverse_length * inverse_length * E * d.dot(direction)) * d +
-           (A_over_L * S) * direction;
+    return product(Compression::modulus(trial, section.youngs_modulus), Compression::stress(trial), stretch,
+                   direction);
+  }
+
+  /// The same with the elastic modulus of a taut element even where a cable is slack: no step of the run
+  /// meets anything stiffer at this strain, so it is what the step limit is computed from.
+  Vector3 stiffest_product(const Vector3& stretch, const Vector3& direction) const noexcept {
+    return product(section.youngs_modulus, Compression::stress(trial_stress(strain(stretch))), stretch,
+                   direction);
   }
 
   /// Axial force N = A S l/L, positive in tension (N).
   double axial_force(const Vector3& stretch) const noexcept {
     const double S = Compression::stress(trial_stress(strain(stretch)));
     return section.area * S * inverse_length * (reference + stretch).norm();
+  }
+
+ private:
+  Vector3 product(double modulus, double stress, const Vector3& stretch,
+                  const Vector3& direction) const noexcept {
+    const Vector3 d = reference + stretch;
+    const double A_over_L = section.area * inverse_length;
+    return (A_over_L * inverse_length * inverse_length * modulus * d.dot(direction)) * d +
+           (A_over_L * stress) * direction;
   }
 };
 

@@ -33,7 +33,8 @@ void for_each_support(const Model& model, const Visit& visit) {
 
 }  // namespace
 
-ExplicitSolver::ExplicitSolver(const Model& model, Assembly& assembly) : model_(model), assembly_(assembly) {
+ExplicitSolver::ExplicitSolver(const Model& model, Assembly& assembly, double step)
+    : model_(model), assembly_(assembly), longest_step_(step) {
   const std::size_t values = model.reference.size();
   state_.displacement.assign(values, 0);
   state_.velocity.assign(values, 0);
@@ -46,6 +47,12 @@ ExplicitSolver::ExplicitSolver(const Model& model, Assembly& assembly) : model_(
                          [](double m) { return m > 0 ? 1 / m : 0; });
   if (model.damping.stiffness > 0) damping_force_.resize(values);
   sum_.reserve(model.nodes());
+}
+
+void ExplicitSolver::advance(double time, double length) {
+  const auto steps = std::max(1.0, std::ceil(length / longest_step_ * (1 - 1e-9)));
+  const double step_length = length / steps;
+  for (int k = 0; k < steps; ++k) step(time + k * step_length, step_length);
 }
 
 void ExplicitSolver::step(double time, double step) {
@@ -163,11 +170,11 @@ ExplicitSolver::Powers ExplicitSolver::powers(double time) const noexcept {
   return power;
 }
 
-EnergyBalance ExplicitSolver::balance(double time, double next_step) {
+EnergyBalance ExplicitSolver::balance() {
   if (state_.steps == 0) {
-    state_.kick = 0.5 * next_step;
-    evaluate_forces(time);
-    impose_supports(time, next_step);
+    state_.kick = 0.5 * longest_step_;
+    evaluate_forces(0);
+    impose_supports(0, longest_step_);
   }
   const std::vector<double> displacement = displacement_at_evaluation();
   EnergyBalance balance;

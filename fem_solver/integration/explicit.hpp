@@ -7,20 +7,9 @@
 
 #include "core/parallel.hpp"
 #include "fem_solver/assembly/assembly.hpp"
-#include "fem_solver/model/model.hpp"
+#include "fem_solver/integration/integrator.hpp"
 
 namespace talus::fem {
-
-/// Energies at one time level and works up to it (J).
-struct EnergyBalance {
-  double kinetic = 0;
-  std::vector<double> elastic;  ///< of each part
-  double gravity = 0;           ///< potential, zero at the reference state
-  double bulk_damping = 0;      ///< dissipated
-  double loads = 0;             ///< supplied by nodal loads
-  double supports = 0;          ///< supplied by prescribed motion
-  double interface = 0;         ///< supplied through the interface
-};
 
 /// A moment of the run. Copying it is saving it; every number that the next step depends on is in here.
 struct ExplicitState {
@@ -44,12 +33,6 @@ struct ExplicitState {
   bool operator==(const ExplicitState&) const = default;
 };
 
-/// Nodes that receive forces from outside, set before every step or window. Absent in a run on its own.
-struct InterfaceForce {
-  std::vector<Index> nodes;
-  std::vector<double> force;  ///< N; 3 a node
-};
-
 /// Central differences with lumped masses, in leapfrog form (Belytschko, Liu, Moran, Nonlinear Finite
 /// Elements, section 6.2):
 ///
@@ -69,10 +52,21 @@ struct InterfaceForce {
 /// limit, see step_limit.hpp. Invariant of an undamped run: 1/2 v(n-1/2).m v(n+1/2) + U(u(n)) - work, exactly
 /// for linear elasticity and free of drift for all. Proven by: "a free oscillator keeps the leapfrog's own
 /// energy to round-off" (explicit_test.cpp).
-class ExplicitSolver {
+class ExplicitSolver final : public Integrator {
  public:
   /// @pre every node has mass or is fully supported; model and assembly outlive the solver
-  ExplicitSolver(const Model& model, Assembly& assembly);
+  /// @param step the longest one advance() takes (s)
+  ExplicitSolver(const Model& model, Assembly& assembly, double step);
+
+  void advance(double time, double length) override;
+  std::span<const double> displacement() const override { return state_.displacement; }
+  std::span<const double> velocity() const override { return state_.velocity; }
+  std::span<const double> reactions() const override { return state_.reactions; }
+  /// The balance at the time of the last force evaluation, one step before the present; before the first
+  /// step, at time 0.
+  EnergyBalance balance() override;
+  void save() override { saved_ = state_; }
+  void restore() override { state_ = saved_; }
 
   /// One step from `time` to `time + step` (s).
   /// @throws NumericalError if a velocity stops being finite
@@ -80,13 +74,6 @@ class ExplicitSolver {
 
   ExplicitState& state() { return state_; }
   const ExplicitState& state() const { return state_; }
-  InterfaceForce& interface() { return interface_; }
-
-  /// The balance at the time of the last force evaluation. Before the first step: at the start, for a first
-  /// step of `next_step`.
-  EnergyBalance balance(double time, double next_step);
-  /// Reported by a NumericalError; negative: none.
-  double last_output_time = -1;
 
  private:
   void evaluate_forces(double time) noexcept;
@@ -110,8 +97,9 @@ class ExplicitSolver {
 
   const Model& model_;
   Assembly& assembly_;
+  double longest_step_;
   ExplicitState state_;
-  InterfaceForce interface_;
+  ExplicitState saved_;
   std::vector<double> inverse_mass_;   ///< 1/kg; 0 for a node without mass
   std::vector<double> damping_force_;  ///< N; b K v, only where the scene names stiffness damping
   core::OrderedSum<> sum_;

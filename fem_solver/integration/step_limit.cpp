@@ -66,8 +66,8 @@ double largest_frequency(Assembly& assembly, std::span<const double> displacemen
   double beta = 0;
   while (true) {
     x = scale.cwiseProduct(q);
-    assembly.stiffness_product(displacement, {x.data(), static_cast<std::size_t>(x.size())},
-                               {r.data(), static_cast<std::size_t>(r.size())});
+    assembly.stiffest_product(displacement, {x.data(), static_cast<std::size_t>(x.size())},
+                              {r.data(), static_cast<std::size_t>(r.size())});
     r = r.cwiseProduct(scale) - beta * before;
     diagonal.push_back(r.dot(q));
     r -= diagonal.back() * q;
@@ -135,8 +135,8 @@ std::vector<StepBound> step_bounds(Assembly& assembly, std::span<const double> d
     bounds.push_back(
         {"highest frequency of the structure", stable_step(frequency, model.damping),
          fmt::format(
-             "(2/w)(sqrt(1 + xi^2) - xi) with w = {:.6g} 1/s, xi = {:.3g}, from the tangent stiffness "
-             "with its geometric part",
+             "(2/w)(sqrt(1 + xi^2) - xi) with w = {:.6g} 1/s, xi = {:.3g}, from the stiffness of the taut "
+             "structure with its geometric part",
              frequency, 0.5 * model.damping.stiffness * frequency)});
   for (const auto& part : model.parts)
     std::visit([&](const auto& batch) { add_part_bounds(part, batch, displacement, model.damping, bounds); },

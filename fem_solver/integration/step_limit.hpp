@@ -15,7 +15,8 @@ struct StepBound {
   std::string reason;  ///< formula and values
 };
 
-/// Largest angular frequency of M^-1 K at a state, K the tangent with its geometric part, supported
+/// Largest angular frequency of M^-1 K at a state, K the tangent with its geometric part and with slack
+/// cables taken as taut, because they may snap taut in any step; supported
 /// directions left out. Lanczos iteration on M^-1/2 K M^-1/2 (Parlett, The Symmetric Eigenvalue Problem,
 /// chapter 13) from a fixed start vector: unlike plain power iteration it also separates the crowded upper
 /// end of a net's spectrum within a few dozen products, and its residual bounds the error.

@@ -34,6 +34,15 @@ void TwoNodeBatch<Compression>::stiffness_product(std::span<const double> displa
 }
 
 template <class Compression>
+void TwoNodeBatch<Compression>::stiffest_product(std::span<const double> displacement,
+                                                 std::span<const double> direction, std::span<double> slots,
+                                                 core::Block elements) const noexcept {
+  for (auto e = static_cast<Index>(elements.begin); e < elements.end; ++e)
+    Vector3::Map(&slots[3 * at(e)]) =
+        element(e).stiffest_product(difference(displacement, e), difference(direction, e));
+}
+
+template <class Compression>
 double TwoNodeBatch<Compression>::energy(std::span<const double> displacement) const noexcept {
   double sum = 0;
   for (Index e = 0; e < size(); ++e) sum += element(e).energy(difference(displacement, e));

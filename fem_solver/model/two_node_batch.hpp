@@ -43,6 +43,8 @@ class TwoNodeBatch {
                       core::Block elements) const noexcept;
   void stiffness_product(std::span<const double> displacement, std::span<const double> direction,
                          std::span<double> slots, core::Block elements) const noexcept;
+  void stiffest_product(std::span<const double> displacement, std::span<const double> direction,
+                        std::span<double> slots, core::Block elements) const noexcept;
   double energy(std::span<const double> displacement) const noexcept;
   void add_mass(std::span<double> node_masses) const noexcept;
 
@@ -62,7 +64,13 @@ class TwoNodeBatch {
   double axial_force(std::span<const double> displacement, Index e) const noexcept {
     return element(e).axial_force(difference(displacement, e));
   }
-  /// Moduli that carry waves along and across an element (Pa, per reference area); 0 where a cable is slack.
+  /// Second Piola-Kirchhoff stress (Pa).
+  double stress(std::span<const double> displacement, Index e) const noexcept {
+    const AxialElement<Compression> bar = element(e);
+    return Compression::stress(bar.trial_stress(bar.strain(difference(displacement, e))));
+  }
+  /// Moduli that carry waves along and across an element (Pa, per reference area); along as if a cable were
+  /// taut.
   struct WaveModuli {
     double along, across;
   };
@@ -70,7 +78,7 @@ class TwoNodeBatch {
     const AxialElement<Compression> bar = element(e);
     const double strain = bar.strain(difference(displacement, e)), trial = bar.trial_stress(strain);
     const double stress = Compression::stress(trial);
-    return {Compression::modulus(trial, part_.section.youngs_modulus) * (1 + 2 * strain) + stress, stress};
+    return {part_.section.youngs_modulus * (1 + 2 * strain) + stress, stress};
   }
   double reference_length(Index e) const noexcept { return 1 / inverse_length_[at(e)]; }
   const AxialPart& part() const { return part_; }

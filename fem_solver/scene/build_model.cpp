@@ -27,9 +27,11 @@ class Builder {
   Model build() {
     mesh_parts();
     if (scene_.weld) weld();
-    for (const auto& [name, selection] : scene_.node_sets) model_.node_sets[name] = select_nodes(model_, selection);
+    for (const auto& [name, selection] : scene_.node_sets)
+      model_.node_sets[name] = select_nodes(model_, selection);
     for (const auto& part : scene_.parts)
-      if (const auto* through = std::get_if<ThroughScene>(&part.second.shape)) lead_through(part.first, part.second, *through);
+      if (const auto* through = std::get_if<ThroughScene>(&part.second.shape))
+        lead_through(part.first, part.second, *through);
     for (auto& part : parts_) add_elements(part);
     lump_masses(model_);
     add_conditions();
@@ -55,10 +57,12 @@ class Builder {
 
 void Builder::mesh_parts() {
   for (const auto& [name, part] : scene_.parts) {
-    std::visit([&, &name = name, &part = part](const auto& shape) {
-      using Shape = std::decay_t<decltype(shape)>;
-      if constexpr (!std::is_same_v<Shape, ThroughScene>) add_mesh(name, part, generate(shape));
-    }, part.shape);
+    std::visit(
+        [&, &name = name, &part = part](const auto& shape) {
+          using Shape = std::decay_t<decltype(shape)>;
+          if constexpr (!std::is_same_v<Shape, ThroughScene>) add_mesh(name, part, generate(shape));
+        },
+        part.shape);
   }
 }
 
@@ -69,7 +73,8 @@ void Builder::add_mesh(const std::string& name, const PartScene& part, const mes
   part_of_node_.resize(static_cast<std::size_t>(model_.nodes()), static_cast<Index>(parts_.size()));
   MeshedPart& meshed = parts_.emplace_back(MeshedPart{name, &part, {}, {}});
   for (const auto& [a, b] : net.surface.segments) meshed.segments.push_back({first + a, first + b});
-  for (const auto& [a, b, c] : net.surface.triangles) meshed.triangles.push_back({first + a, first + b, first + c});
+  for (const auto& [a, b, c] : net.surface.triangles)
+    meshed.triangles.push_back({first + a, first + b, first + c});
   for (const auto& set : net.node_sets) {
     auto& nodes = model_.node_sets[set.name == "nodes" ? name : name + "." + set.name];
     for (const Index node : set.nodes) nodes.push_back(first + node);
@@ -83,13 +88,20 @@ void Builder::weld() {
   for (std::size_t i = 0; i < becomes.size(); ++i) {
     const auto target = static_cast<std::size_t>(becomes[i]);
     number[i] = target == i ? static_cast<Index>(positions.size() / 3) : number[target];
-    if (target == i) positions.insert(positions.end(), &model_.reference[3 * i], &model_.reference[3 * i] + 3);
+    if (target == i)
+      positions.insert(positions.end(), &model_.reference[3 * i], &model_.reference[3 * i] + 3);
   }
   const auto renumber = [&](auto& nodes) {
     for (Index& node : nodes) node = number[static_cast<std::size_t>(node)];
   };
   for (auto& part : parts_) {
-    for (auto& segment : part.segments) renumber(segment);
+    for (auto& segment : part.segments) {
+      renumber(segment);
+      if (segment[0] == segment[1])
+        throw core::ConfigError(
+            fmt::format("structure.weld: the tolerance of {:.4g} m joins both ends of an element of {}",
+                        scene_.weld->tolerance, part.name));
+    }
     for (auto& triangle : part.triangles) renumber(triangle);
   }
   for (auto& [name, nodes] : model_.node_sets) renumber(nodes);
@@ -111,26 +123,30 @@ void Builder::lead_through(const std::string& name, const PartScene& part, const
   MeshedPart& meshed = parts_.emplace_back(MeshedPart{name, &part, {}, {}});
   for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
     if ((model_.position(nodes[i]) - model_.position(nodes[i + 1])).isZero(0))
-      throw core::ConfigError(fmt::format("{}: structure.parts.{}: the rope passes twice through the same point, at {}", part.place,
-                                          name, node_name(model_, nodes[i])));
+      throw core::ConfigError(
+          fmt::format("{}: structure.parts.{}: the rope passes twice through the same point, at {}",
+                      part.place, name, node_name(model_, nodes[i])));
     meshed.segments.push_back({nodes[i], nodes[i + 1]});
   }
   if (meshed.segments.empty())
-    throw core::ConfigError(fmt::format("{}: structure.parts.{}: a rope needs at least two nodes", part.place, name));
+    throw core::ConfigError(
+        fmt::format("{}: structure.parts.{}: a rope needs at least two nodes", part.place, name));
   model_.node_sets[name] = nodes;
   model_.node_sets[name + ".start"] = {nodes.front()};
   model_.node_sets[name + ".end"] = {nodes.back()};
 }
 
 AxialPart axial_part(const AxialScene& scene) {
-  return {.section = {.area = scene.area, .youngs_modulus = scene.youngs_modulus, .prestress = scene.prestress},
-          .density = scene.density};
+  return {
+      .section = {.area = scene.area, .youngs_modulus = scene.youngs_modulus, .prestress = scene.prestress},
+      .density = scene.density};
 }
 
 void need_segments(const MeshedPart& part, const char* element) {
   if (part.segments.empty())
-    throw core::ConfigError(fmt::format("{}: structure.parts.{}: a {} needs a shape made of lines, not of triangles",
-                                        part.scene->place, part.name, element));
+    throw core::ConfigError(
+        fmt::format("{}: structure.parts.{}: a {} needs a shape made of lines, not of triangles",
+                    part.scene->place, part.name, element));
 }
 
 struct ElementMaker {
@@ -153,7 +169,8 @@ void Builder::add_elements(MeshedPart& part) {
   for (const auto& triangle : part.triangles) nodes.insert(nodes.end(), triangle.begin(), triangle.end());
   std::ranges::sort(nodes);
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-  model_.parts.push_back({part.name, std::visit(ElementMaker{part, model_}, part.scene->element), std::move(nodes)});
+  model_.parts.push_back(
+      {part.name, std::visit(ElementMaker{part, model_}, part.scene->element), std::move(nodes)});
 }
 
 std::string label(const char* kind, std::size_t number, const NodeSelection& where) {
@@ -171,9 +188,11 @@ void Builder::add_conditions() {
     model_.supports.push_back(std::move(support));
   }
   for (const auto& l : scene_.loads)
-    model_.loads.push_back({label("load", model_.loads.size(), l.where), select_nodes(model_, l.where), l.force, {l.over_time}});
+    model_.loads.push_back(
+        {label("load", model_.loads.size(), l.where), select_nodes(model_, l.where), l.force, {l.over_time}});
   for (const auto& mass : scene_.point_masses)
-    for (const Index node : select_nodes(model_, mass.where)) model_.node_masses[static_cast<std::size_t>(node)] += mass.mass;
+    for (const Index node : select_nodes(model_, mass.where))
+      model_.node_masses[static_cast<std::size_t>(node)] += mass.mass;
   for (const auto& initial : scene_.initial_velocities)
     model_.initial_velocities.push_back({select_nodes(model_, initial.where), initial.velocity});
   model_.gravity = scene_.gravity;
@@ -189,6 +208,8 @@ void Builder::check_masses() const {
 
 }  // namespace
 
-Model build_model(const StructureScene& scene) { return Builder(scene).build(); }
+Model build_model(const StructureScene& scene) {
+  return Builder(scene).build();
+}
 
 }  // namespace talus::fem

@@ -16,7 +16,9 @@ std::string known_names(const Model& model) {
   return names;
 }
 
-std::string coordinates(const Vector3& x) { return fmt::format("({:.6g}, {:.6g}, {:.6g}) m", x.x(), x.y(), x.z()); }
+std::string coordinates(const Vector3& x) {
+  return fmt::format("({:.6g}, {:.6g}, {:.6g}) m", x.x(), x.y(), x.z());
+}
 
 /// Points written by hand are rarely exact: within a millionth of the structure's extent they mean the node.
 Index node_at(const Model& model, const std::string& place, const Vector3& point) {
@@ -25,8 +27,9 @@ Index node_at(const Model& model, const std::string& place, const Vector3& point
   const double distance = (x.colwise() - point).colwise().norm().minCoeff(&nearest);
   const double extent = (x.rowwise().maxCoeff() - x.rowwise().minCoeff()).norm();
   if (distance > 1e-6 * extent)
-    throw core::ConfigError(fmt::format("{}: at: no node at {}; the nearest is {}, {:.4g} m away", place, coordinates(point),
-                                        node_name(model, static_cast<Index>(nearest)), distance));
+    throw core::ConfigError(fmt::format("{}: at: no node at {}; the nearest is {}, {:.4g} m away", place,
+                                        coordinates(point), node_name(model, static_cast<Index>(nearest)),
+                                        distance));
   return static_cast<Index>(nearest);
 }
 
@@ -37,16 +40,19 @@ std::vector<Index> nodes_in(const Model& model, const std::string& place, const 
     if ((x >= box.low.array()).all() && (x <= box.high.array()).all()) found.push_back(i);
   }
   if (found.empty())
-    throw core::ConfigError(fmt::format("{}: box: no node between {} and {}", place, coordinates(box.low), coordinates(box.high)));
+    throw core::ConfigError(fmt::format("{}: box: no node between {} and {}", place, coordinates(box.low),
+                                        coordinates(box.high)));
   return found;
 }
 
 }  // namespace
 
-const std::vector<Index>& find_node_set(const Model& model, const std::string& place, const std::string& name) {
+const std::vector<Index>& find_node_set(const Model& model, const std::string& place,
+                                        const std::string& name) {
   const auto found = model.node_sets.find(name);
   if (found == model.node_sets.end())
-    throw core::ConfigError(fmt::format("{}: there is no node set '{}'; known here: {}", place, name, known_names(model)));
+    throw core::ConfigError(
+        fmt::format("{}: there is no node set '{}'; known here: {}", place, name, known_names(model)));
   return found->second;
 }
 

@@ -48,19 +48,6 @@ void describe(core::Fields& fields, MeshScene& mesh) {
               "needs either `segments` or `triangles`");
 }
 
-void describe(core::Fields& fields, TriangleGridScene& grid) {
-  fields.required("corner", grid.corner, {.unit = "m", .help = "the corner the rectangle starts from"});
-  fields.required("size", grid.size, {.unit = "m", .range = core::positive, .help = "the two side lengths"});
-  fields.required("divisions", grid.divisions,
-                  {.range = {.low = 1, .high = 1e5}, .help = "cells along both sides"});
-  fields.with_default("along", grid.along, {.help = "direction of the first side"});
-  fields.with_default("across", grid.across, {.help = "direction of the second side"});
-  fields.rule(grid.size.size() == 2, "size", "needs two lengths");
-  fields.rule(grid.divisions.size() == 2, "divisions", "needs two numbers");
-  fields.rule(grid.along.cross(grid.across).norm() > 1e-6 * grid.along.norm() * grid.across.norm(), "across",
-              "must not be parallel to `along`");
-}
-
 void describe(core::Fields& fields, ThroughScene& through) {
   fields.required("nodes", through.nodes,
                   {.help = "node sets the rope runs through, in this order: [net.edge_south]"});
@@ -72,7 +59,7 @@ void describe_shape(core::Fields& fields, ShapeScene& shape) {
   fields.one_of(shape, {{"square_net", "wires along two directions at a pitch"},
                         {"polyline", "a rope or bar along straight lines"},
                         {"mesh", "nodes and elements written out"},
-                        {"triangle_grid", "a rectangle of triangles"},
+                        {"sheet", "a panel filled with triangles"},
                         {"through", "a rope through nodes of other parts"}});
 }
 
@@ -105,36 +92,6 @@ mesh::Net generate(const MeshScene& scene) {
   for (const auto& t : scene.triangles)
     net.surface.triangles.push_back(
         {node_number(t.x(), net.surface), node_number(t.y(), net.surface), node_number(t.z(), net.surface)});
-  return net;
-}
-
-mesh::Net generate(const TriangleGridScene& grid) {
-  const auto columns = static_cast<Index>(grid.divisions[0]), rows = static_cast<Index>(grid.divisions[1]);
-  const auto node = [columns](Index i, Index j) { return j * (columns + 1) + i; };
-  mesh::Net net;
-  for (Index j = 0; j <= rows; ++j)
-    for (Index i = 0; i <= columns; ++i)
-      append(net.surface, grid.corner + grid.along.normalized() * (grid.size[0] * i / columns) +
-                              grid.across.normalized() * (grid.size[1] * j / rows));
-  for (Index j = 0; j < rows; ++j) {
-    for (Index i = 0; i < columns; ++i) {
-      const Index a = node(i, j), b = node(i + 1, j), c = node(i + 1, j + 1), d = node(i, j + 1);
-      const bool rising = (i + j) % 2 == 0;  // alternating, so that the grid prefers neither diagonal
-      net.surface.triangles.push_back(rising ? std::array{a, b, c} : std::array{a, b, d});
-      net.surface.triangles.push_back(rising ? std::array{a, c, d} : std::array{b, c, d});
-    }
-  }
-  mesh::NodeSet south{"edge_south", {}}, east{"edge_east", {}}, north{"edge_north", {}},
-      west{"edge_west", {}};
-  for (Index i = 0; i <= columns; ++i) south.nodes.push_back(node(i, 0));
-  for (Index j = 0; j <= rows; ++j) east.nodes.push_back(node(columns, j));
-  for (Index i = columns; i >= 0; --i) north.nodes.push_back(node(i, rows));
-  for (Index j = rows; j >= 0; --j) west.nodes.push_back(node(0, j));
-  mesh::NodeSet rim{"rim", {}};
-  for (const auto* edge : {&south, &east, &north, &west})
-    rim.nodes.insert(rim.nodes.end(), edge->nodes.begin(), edge->nodes.end() - 1);
-  const mesh::NodeSet corners{"corners", {node(0, 0), node(columns, 0), node(columns, rows), node(0, rows)}};
-  net.node_sets = {all_nodes(net.surface), rim, corners, south, east, north, west};
   return net;
 }
 

@@ -10,6 +10,7 @@
 
 #include "core/scene/fields.hpp"
 #include "interface_mesh/net.hpp"
+#include "interface_mesh/scene/sheet.hpp"
 #include "interface_mesh/scene/square_net.hpp"
 
 /// Where the nodes and elements of a part come from.
@@ -30,17 +31,6 @@ struct MeshScene {
 };
 void describe(core::Fields& fields, MeshScene& mesh);
 
-/// `triangle_grid:` a rectangle of right-angled triangles, their diagonals alternating. Node sets as a square
-/// net's.
-struct TriangleGridScene {
-  core::Vector3 corner = core::Vector3::Zero();  ///< m
-  std::vector<double> size;                      ///< m; two
-  std::vector<std::int64_t> divisions;           ///< two
-  core::Vector3 along = core::Vector3::UnitX();
-  core::Vector3 across = core::Vector3::UnitY();
-};
-void describe(core::Fields& fields, TriangleGridScene& grid);
-
 /// `through:` a rope through nodes of other parts, in the order of their sets. Node sets: nodes, start, end.
 struct ThroughScene {
   std::vector<std::string> nodes;     ///< node sets
@@ -50,12 +40,11 @@ struct ThroughScene {
 void describe(core::Fields& fields, ThroughScene& through);
 
 using ShapeScene =
-    std::variant<mesh::SquareNetScene, PolylineScene, MeshScene, TriangleGridScene, ThroughScene>;
+    std::variant<mesh::SquareNetScene, PolylineScene, MeshScene, mesh::SheetScene, ThroughScene>;
 void describe_shape(core::Fields& fields, ShapeScene& shape);
 
 mesh::Net generate(const PolylineScene& polyline);
 /// @throws core::ConfigError where an element names a node that is not there
 mesh::Net generate(const MeshScene& mesh);
-mesh::Net generate(const TriangleGridScene& grid);
 
 }  // namespace talus::fem

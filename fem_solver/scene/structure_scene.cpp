@@ -69,12 +69,10 @@ void describe(core::Fields& fields, StructureScene& structure) {
   fields.optional("step", structure.step,
                   {.unit = "s",
                    .range = core::positive,
-                   .help = "the structure's own step; `time.step` where absent, or 0.9 of the limit where "
+                   .help = "the structure's own step; `time.step` where absent, or half of the limit where "
                            "that is absent too"});
   fields.choice("unstable_step", structure.unstable_step, {"refused", "allowed"},
                 "what happens to an explicit step above the limit of stability");
-  fields.with_default("threads", structure.threads,
-                      {.range = {.low = 1, .high = 256}, .help = "threads of the element and node loops"});
 }
 
 }  // namespace talus::fem

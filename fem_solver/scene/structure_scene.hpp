@@ -65,7 +65,6 @@ struct StructureScene {
   MethodScene method;
   std::optional<double> step;  ///< s
   enum class UnstableStep { refused, allowed } unstable_step = UnstableStep::refused;
-  std::int64_t threads = 1;
 };
 void describe(core::Fields& fields, StructureScene& structure);
 

@@ -10,17 +10,21 @@ namespace {
 struct PointCloud {
   std::span<const double> positions;
   std::size_t kdtree_get_point_count() const { return positions.size() / 3; }
-  double kdtree_get_pt(std::size_t point, std::size_t direction) const { return positions[3 * point + direction]; }
+  double kdtree_get_pt(std::size_t point, std::size_t direction) const {
+    return positions[3 * point + direction];
+  }
   template <class Box>
   bool kdtree_get_bbox(Box&) const {
     return false;
   }
 };
-using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, PointCloud>, PointCloud, 3>;
+using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, PointCloud>, PointCloud,
+                                                 3, std::size_t>;
 
 }  // namespace
 
-std::vector<Index> weld_map(std::span<const double> positions, std::span<const Index> part_of, double tolerance) {
+std::vector<Index> weld_map(std::span<const double> positions, std::span<const Index> part_of,
+                            double tolerance) {
   const PointCloud cloud{positions};
   Tree tree(3, cloud);
   tree.buildIndex();

@@ -37,11 +37,11 @@ TEST_CASE("a prestressed wire with little EA is a string: the limit follows sqrt
         Approx(2 * c / (2.0 / 16) * std::sin(15 * std::numbers::pi / 32)).epsilon(1e-6));
 }
 
-TEST_CASE("a slack cable limits nothing") {
-  AxialPart slack = string;
+TEST_CASE("a slack cable limits the step as if it were taut, because it may become so") {
+  AxialPart slack = bar;
   slack.section.prestress = -1;
-  CHECK(frequency_at_rest(tests::chain<CableBatch>(slack, 2, 16)) == 0);
-  CHECK(std::isinf(stable_step(0, {})));
+  CHECK(frequency_at_rest(tests::chain<CableBatch>(slack, 2, 16)) ==
+        Approx(2 * std::sqrt(2e11 / 8000) / (2.0 / 16)).epsilon(1e-6));
 }
 
 TEST_CASE("a free oscillator is stable just below the limit and blows up just above it") {
@@ -53,7 +53,7 @@ TEST_CASE("a free oscillator is stable just below the limit and blows up just ab
       const double limit = stable_step(frequency_at_rest(model), model.damping);
       const auto largest_after = [&](double step) {
         Assembly assembly(model);
-        ExplicitSolver solver(model, assembly);
+        ExplicitSolver solver(model, assembly, step);
         solver.state().velocity[3] = 1e-12;
         for (int k = 0; k < 2000; ++k) solver.step(k * step, step);
         return std::abs(solver.state().velocity[3]);

@@ -1,0 +1,168 @@
+#include "fem_solver/app/adapter.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "coupler/scene/interface_scene.hpp"
+#include "fem_solver/app/structure.hpp"
+
+namespace talus::fem {
+namespace {
+
+/// Names of the parts whose nodes the particles can touch; none in a scene without an interface.
+std::vector<std::string> interface_parts(const core::SceneFile& file) {
+  core::SceneReader reader(file);
+  const auto scene = reader.optional<coupler::InterfaceScene>("interface");
+  reader.finish();
+  return scene ? scene->structure : std::vector<std::string>{};
+}
+
+/// Ω_S and the structure's node behind each of its own.
+struct PublishedSurface {
+  mesh::Surface surface;
+  std::vector<Index> nodes;
+  std::vector<double> masses;  ///< kg
+};
+
+const Part& find_part(const Model& model, const std::string& name) {
+  const auto part = std::ranges::find(model.parts, name, &Part::name);
+  if (part == model.parts.end())
+    throw core::ConfigError(fmt::format("interface.structure: the structure has no part '{}'", name));
+  return *part;
+}
+
+template <std::size_t N>
+std::array<mesh::Index, N> renumbered(const std::array<Index, N>& cell, const std::vector<Index>& number) {
+  std::array<mesh::Index, N> local;
+  std::ranges::transform(cell, local.begin(),
+                         [&](Index node) { return number[static_cast<std::size_t>(node)]; });
+  return local;
+}
+
+void add_cells(const Part& part, const std::vector<Index>& number, mesh::Surface& surface) {
+  mesh::SurfacePart& run = surface.parts.emplace_back();
+  run.name = part.name;
+  run.segment_begin = static_cast<mesh::Index>(surface.segments.size());
+  run.triangle_begin = static_cast<mesh::Index>(surface.triangles.size());
+  std::visit(
+      [&](const auto& batch) {
+        for (const auto& cell : batch.cells()) {
+          if constexpr (std::tuple_size_v<std::decay_t<decltype(cell)>> == 2)
+            surface.segments.push_back(renumbered(cell, number));
+          else
+            surface.triangles.push_back(renumbered(cell, number));
+        }
+      },
+      part.elements);
+  run.segment_end = static_cast<mesh::Index>(surface.segments.size());
+  run.triangle_end = static_cast<mesh::Index>(surface.triangles.size());
+}
+
+PublishedSurface published_surface(const Model& model, const std::vector<std::string>& parts) {
+  PublishedSurface published;
+  std::vector<Index> number(static_cast<std::size_t>(model.nodes()), -1);
+  for (const auto& name : parts) {
+    const Part& part = find_part(model, name);
+    for (const Index node : part.nodes) {
+      auto& own = number[static_cast<std::size_t>(node)];
+      if (own >= 0) continue;
+      own = static_cast<Index>(published.nodes.size());
+      published.nodes.push_back(node);
+      published.masses.push_back(model.node_masses[static_cast<std::size_t>(node)]);
+      const Vector3 x = model.position(node);
+      published.surface.positions.insert(published.surface.positions.end(), x.begin(), x.end());
+    }
+    add_cells(part, number, published.surface);
+  }
+  return published;
+}
+
+coupler::Declaration declaration(Structure& structure, const StructuralScene& scene) {
+  coupler::Declaration declared{.program = "fem_solver " + core::version(),
+                                .step = structure.step(),
+                                .limits = {},
+                                .effects = {},
+                                .outputs = structure.output().description()};
+  for (const auto& bound : structure.bounds())
+    declared.limits.push_back(
+        {"structure: " + bound.name, bound.seconds, &bound == &structure.bounds().front(), bound.reason});
+  for (const auto& effect : structural_effects(scene.structure))
+    declared.effects.push_back({effect.name, effect.present, effect.reason});
+  return declared;
+}
+
+/// The interface's part of the state, at its nodes in their order.
+void publish_motion(Structure& structure, const coupler::StructureFields& fields) {
+  const auto& nodes = structure.integrator().interface().nodes;
+  const auto displacement = structure.integrator().displacement(),
+             velocity = structure.integrator().velocity();
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const auto from = 3 * static_cast<std::size_t>(nodes[i]);
+    for (std::size_t c = 0; c < 3; ++c) {
+      fields.displacement[3 * i + c] = displacement[from + c];
+      fields.velocity[3 * i + c] = velocity[from + c];
+    }
+  }
+}
+
+void obey(const coupler::Command& command, Structure& structure, coupler::Participant& participant) {
+  using coupler::Action;
+  Integrator& integrator = structure.integrator();
+  const coupler::StructureFields fields = participant.structure_fields();
+  switch (command.action) {
+    case Action::advance:
+      std::ranges::copy(fields.force, integrator.interface().force.begin());
+      integrator.advance(command.time, command.length);
+      break;
+    case Action::save_state:
+      return integrator.save();
+    case Action::restore_state:
+      integrator.restore();
+      break;
+    case Action::report:
+      coupler::report(participant, command, structure.output());
+      integrator.last_output_time = command.time;
+      break;
+    case Action::write_checkpoint:
+    case Action::read_checkpoint:
+      throw core::UsageError("fem_solver cannot write checkpoints yet");
+    case Action::finish:
+      return;
+  }
+  publish_motion(structure, fields);
+}
+
+void serve(const core::SceneFile& file, coupler::Participant& participant) {
+  const StructuralScene scene = read_structural_scene(file);
+  Structure structure(scene);
+  const PublishedSurface published = published_surface(structure.model(), interface_parts(file));
+  structure.make_interface(published.nodes);
+  participant.publish_surface(published.surface, published.masses);
+  participant.declare(declaration(structure, scene));
+  for (auto command = participant.next(); command.action != coupler::Action::finish;
+       command = participant.next()) {
+    obey(command, structure, participant);
+    participant.answer();
+  }
+}
+
+}  // namespace
+
+void serve_structure(const core::SceneFile& file, coupler::Participant& participant) {
+  try {
+    serve(file, participant);
+  } catch (const std::exception& error) {
+    participant.fail(error);
+    throw;
+  }
+}
+
+core::ExitCode run_coupled(const core::SolverCommand& command) {
+  const auto participant =
+      coupler::Participant::join({.segment = command.join, .role = coupler::Role::structure});
+  serve_structure(core::SceneFile::load(command.scene), *participant);
+  return core::ExitCode::success;
+}
+
+}  // namespace talus::fem

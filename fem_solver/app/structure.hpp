@@ -1,0 +1,65 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/scene/reader.hpp"
+#include "core/scene/sections.hpp"
+#include "fem_solver/assembly/assembly.hpp"
+#include "fem_solver/integration/integrator.hpp"
+#include "fem_solver/integration/step_limit.hpp"
+#include "fem_solver/output/structure_output.hpp"
+#include "fem_solver/scene/structure_scene.hpp"
+
+namespace talus::fem {
+
+/// The sections of a scene that the structural solver reads.
+struct StructuralScene {
+  core::TimeScene time;
+  core::OutputScene output;
+  StructureScene structure;
+};
+/// @throws core::ConfigError with every complaint about these sections
+StructuralScene read_structural_scene(const core::SceneFile& file);
+/// The section's page of the schema.
+std::string structure_schema();
+
+/// An effect the program has, in the scene or not, and why.
+struct StructuralEffect {
+  std::string name;
+  bool present = false;
+  std::string reason;
+};
+std::vector<StructuralEffect> structural_effects(const StructureScene& scene);
+
+/// A structure ready to run: everything that is made of the scene before time 0.
+class Structure {
+ public:
+  /// @throws core::ConfigError for what cannot be built, and for an explicit step above the limit of
+  /// stability
+  explicit Structure(const StructuralScene& scene);
+
+  const Model& model() const { return model_; }
+  Integrator& integrator() { return *integrator_; }
+  /// Parts whose nodes receive forces from outside, in the order their nodes are published.
+  void make_interface(const std::vector<Index>& nodes);
+  /// Makes the output; the interface must be known by then.
+  const StructureOutput& output();
+
+  double step() const { return step_; }                             ///< s
+  const std::vector<StepBound>& bounds() const { return bounds_; }  ///< the one that counts first
+
+ private:
+  void check_step(const StructureScene& scene) const;
+
+  Model model_;
+  Assembly assembly_;
+  std::vector<StepBound> bounds_;
+  double step_ = 0;
+  std::unique_ptr<Integrator> integrator_;
+  core::OutputScene output_scene_;
+  std::unique_ptr<StructureOutput> output_;
+};
+
+}  // namespace talus::fem

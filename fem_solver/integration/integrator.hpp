@@ -1,0 +1,52 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "fem_solver/model/model.hpp"
+
+namespace talus::fem {
+
+/// Energies at one time level and works up to it (J).
+struct EnergyBalance {
+  double kinetic = 0;
+  std::vector<double> elastic;  ///< of each part
+  double gravity = 0;           ///< potential, zero at the reference state
+  double bulk_damping = 0;      ///< dissipated
+  double loads = 0;             ///< supplied by nodal loads
+  double supports = 0;          ///< supplied by prescribed motion
+  double interface = 0;         ///< supplied through the interface
+};
+
+/// Nodes that receive forces from outside, set before every window. Empty in a run on its own.
+struct InterfaceForce {
+  std::vector<Index> nodes;
+  std::vector<double> force;  ///< N; 3 a node
+};
+
+/// A way of going through time, as a program sees it: called once a window, never inside a step.
+class Integrator {
+ public:
+  virtual ~Integrator() = default;
+
+  /// From `time` to `time + length` (s), in as many steps as it takes.
+  /// @throws core::NumericalError where the computation breaks down
+  virtual void advance(double time, double length) = 0;
+
+  virtual std::span<const double> displacement() const = 0;  ///< m; at the present time, 3 a node
+  virtual std::span<const double> velocity() const = 0;      ///< m/s; leapfrog: half a step before, 3 a node
+  /// Forces of the supports on the structure (N), 3 for every node of every support in turn.
+  virtual std::span<const double> reactions() const = 0;
+  virtual EnergyBalance balance() = 0;
+
+  virtual void save() = 0;     ///< remembers the present state
+  virtual void restore() = 0;  ///< goes back to the state remembered last
+
+  InterfaceForce& interface() { return interface_; }
+  double last_output_time = -1;  ///< s; told by errors; negative: none
+
+ protected:
+  InterfaceForce interface_;
+};
+
+}  // namespace talus::fem

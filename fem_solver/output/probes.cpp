@@ -1,0 +1,115 @@
+#include "fem_solver/output/probes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/errors.hpp"
+
+namespace talus::fem {
+namespace {
+
+const Part& find_part(const Model& model, const std::string& probe, const std::string& name) {
+  const auto found = std::ranges::find(model.parts, name, &Part::name);
+  if (found == model.parts.end())
+    throw core::ConfigError(fmt::format("output.probes.{}: the structure has no part '{}'", probe, name));
+  return *found;
+}
+
+Index nearest_node(const Model& model, const Vector3& point, const Part* part) {
+  Index nearest = part ? part->nodes.front() : 0;
+  const auto consider = [&](Index node) {
+    if ((model.position(node) - point).squaredNorm() < (model.position(nearest) - point).squaredNorm())
+      nearest = node;
+  };
+  if (part)
+    std::ranges::for_each(part->nodes, consider);
+  else
+    for (Index node = 0; node < model.nodes(); ++node) consider(node);
+  return nearest;
+}
+
+using Values = std::span<const double> (Integrator::*)() const;
+
+/// x, y, z and the magnitude of a vector per node.
+void add_vector(std::vector<ProbeColumn>& columns, const std::string& name, const char* unit, Values values,
+                Index node) {
+  const auto at = static_cast<std::size_t>(3 * node);
+  for (std::size_t c = 0; c < 3; ++c)
+    columns.push_back({fmt::format("{}_{}_{}", name, "xyz"[c], unit),
+                       [=](const Integrator& run) { return (run.*values)()[at + c]; }});
+  columns.push_back({fmt::format("{}_{}", name, unit),
+                     [=](const Integrator& run) { return Vector3::Map(&(run.*values)()[at]).norm(); }});
+}
+
+void add_part_columns(std::vector<ProbeColumn>& columns, const std::string& probe, const Part& part) {
+  columns.push_back({probe + ".axial_force_max_N", [&part](const Integrator& run) {
+                       return std::visit(
+                           [&](const auto& batch) {
+                             double largest = 0;
+                             for (Index e = 0; e < batch.size(); ++e)
+                               largest = std::max(largest, batch.axial_force(run.displacement(), e));
+                             return largest;
+                           },
+                           part.elements);
+                     }});
+}
+
+void add_reactions(std::vector<ProbeColumn>& columns, const Model& model) {
+  std::size_t begin = 0;
+  for (const auto& support : model.supports) {
+    const std::size_t end = begin + support.nodes.size();
+    for (std::size_t c = 0; c < 3; ++c) {
+      if (!support.fixed[c]) continue;
+      columns.push_back({fmt::format("{}.reaction_{}_N", support.name, "xyz"[c]), [=](const Integrator& run) {
+                           double sum = 0;
+                           for (std::size_t k = begin; k < end; ++k) sum += run.reactions()[3 * k + c];
+                           return sum;
+                         }});
+    }
+    begin = end;
+  }
+}
+
+/// Keeps the columns whose quantity (the name between the dot and the unit) is asked for.
+void keep_quantities(std::vector<ProbeColumn>& columns, const std::string& probe,
+                     const std::vector<std::string>& wanted) {
+  const auto has = [&](const ProbeColumn& column, const std::string& quantity) {
+    return column.name.starts_with(probe + "." + quantity + "_") &&
+           column.name.find('_', probe.size() + quantity.size() + 2) == std::string::npos;
+  };
+  const auto matches = [&](const ProbeColumn& column, const std::string& quantity) {
+    return has(column, quantity) || column.name == probe + "." + quantity + "_m_per_s";
+  };
+  for (const auto& quantity : wanted)
+    if (std::ranges::none_of(columns, [&](const auto& column) { return matches(column, quantity); }))
+      throw core::ConfigError(
+          fmt::format("output.probes.{}.quantities: '{}' is not known for this probe", probe, quantity));
+  std::erase_if(columns, [&](const auto& column) {
+    return std::ranges::none_of(wanted, [&](const auto& quantity) { return matches(column, quantity); });
+  });
+}
+
+}  // namespace
+
+std::vector<ProbeColumn> probe_columns(const Model& model, const core::OutputScene& output) {
+  std::vector<ProbeColumn> all;
+  for (const auto& [name, probe] : output.probes) {
+    if (probe.rock) continue;
+    std::vector<ProbeColumn> columns;
+    const Part* part = probe.part ? &find_part(model, name, *probe.part) : nullptr;
+    if (probe.at) {
+      const Index node = nearest_node(model, *probe.at, part);
+      add_vector(columns, name + ".displacement", "m", &Integrator::displacement, node);
+      add_vector(columns, name + ".velocity", "m_per_s", &Integrator::velocity, node);
+    } else {
+      add_part_columns(columns, name, *part);
+    }
+    if (!probe.quantities.empty()) keep_quantities(columns, name, probe.quantities);
+    all.insert(all.end(), columns.begin(), columns.end());
+  }
+  add_reactions(all, model);
+  return all;
+}
+
+}  // namespace talus::fem

@@ -1,0 +1,92 @@
+#include "fem_solver/output/structure_output.hpp"
+
+#include <algorithm>
+
+#include "fem_solver/output/part_fields.hpp"
+
+namespace talus::fem {
+namespace {
+
+constexpr std::size_t displacement_field = 0, velocity_field = 1, first_element_field = 2;
+
+/// Cells by the part's own node numbers.
+core::GroupDescription group_of(const Part& part) {
+  core::GroupDescription group{.name = part.name,
+                               .kind = cell_kind(part.elements),
+                               .nodes = std::ssize(part.nodes),
+                               .cells = {},
+                               .fields = {}};
+  const auto local = [&](Index node) {
+    return static_cast<std::int64_t>(std::ranges::lower_bound(part.nodes, node) - part.nodes.begin());
+  };
+  std::visit(
+      [&](const auto& batch) {
+        for (const auto& cell : batch.cells())
+          for (const Index node : cell) group.cells.push_back(local(node));
+      },
+      part.elements);
+  group.fields = {{.name = "displacement", .unit = "m", .components = 3},
+                  {.name = "velocity", .unit = "m/s", .components = 3}};
+  for (const auto& field : element_fields(part.elements)) group.fields.push_back(field);
+  return group;
+}
+
+void copy_node_values(const Part& part, std::span<const double> values, std::span<double> out) {
+  for (std::size_t i = 0; i < part.nodes.size(); ++i)
+    for (std::size_t c = 0; c < 3; ++c)
+      out[3 * i + c] = values[3 * static_cast<std::size_t>(part.nodes[i]) + c];
+}
+
+}  // namespace
+
+StructureOutput::StructureOutput(const Model& model, Integrator& integrator, const core::OutputScene& scene)
+    : model_(model), integrator_(integrator), probes_(probe_columns(model, scene)) {
+  choose_ledger_lines();
+  for (const auto& probe : probes_) description_.probes.push_back({probe.name});
+  for (const auto& line : ledger_) description_.ledger.push_back(line.description);
+  for (const auto& part : model.parts) description_.groups.push_back(group_of(part));
+}
+
+void StructureOutput::choose_ledger_lines() {
+  using core::LedgerKind;
+  const auto line = [this](const std::string& name, LedgerKind kind, auto value) {
+    ledger_.push_back({{"structure." + name + "_J", kind}, value});
+  };
+  line("kinetic", LedgerKind::stored, &EnergyBalance::kinetic);
+  for (std::size_t p = 0; p < model_.parts.size(); ++p)
+    line("elastic_" + model_.parts[p].name, LedgerKind::stored,
+         [p](const EnergyBalance& b) { return b.elastic[p]; });
+  if (model_.gravity) line("gravity", LedgerKind::stored, &EnergyBalance::gravity);
+  if (model_.damping.mass > 0 || model_.damping.stiffness > 0)
+    line("bulk_damping", LedgerKind::dissipated, &EnergyBalance::bulk_damping);
+  if (!model_.loads.empty()) line("loads", LedgerKind::supplied, &EnergyBalance::loads);
+  if (std::ranges::any_of(model_.supports, &Support::moves))
+    line("moving_supports", LedgerKind::supplied, &EnergyBalance::supports);
+  if (!integrator_.interface().nodes.empty())
+    line("interface", LedgerKind::supplied, &EnergyBalance::interface);
+}
+
+void StructureOutput::fill_probes(std::span<double> values) const {
+  for (std::size_t i = 0; i < probes_.size(); ++i) values[i] = probes_[i].value(integrator_);
+}
+
+void StructureOutput::fill_ledger(std::span<double> joules) const {
+  const EnergyBalance balance = integrator_.balance();
+  for (std::size_t i = 0; i < ledger_.size(); ++i) joules[i] = ledger_[i].value(balance);
+}
+
+void StructureOutput::fill_positions(std::size_t group, std::span<double> positions) const {
+  const Part& part = model_.parts[group];
+  copy_node_values(part, integrator_.displacement(), positions);
+  for (std::size_t i = 0; i < part.nodes.size(); ++i)
+    Vector3::Map(&positions[3 * i]) += model_.position(part.nodes[i]);
+}
+
+void StructureOutput::fill_field(std::size_t group, std::size_t field, std::span<double> values) const {
+  const Part& part = model_.parts[group];
+  if (field == displacement_field) return copy_node_values(part, integrator_.displacement(), values);
+  if (field == velocity_field) return copy_node_values(part, integrator_.velocity(), values);
+  fill_element_field(part.elements, field - first_element_field, integrator_.displacement(), values);
+}
+
+}  // namespace talus::fem

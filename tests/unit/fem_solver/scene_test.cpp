@@ -1,0 +1,119 @@
+#include <catch2/catch.hpp>
+#include <numbers>
+
+#include "core/scene/reader.hpp"
+#include "fem_solver/app/structure.hpp"
+
+namespace {
+
+using namespace talus;
+using namespace talus::fem;
+
+/// A scene of a structure, from its YAML body indented by two spaces.
+StructuralScene scene(const std::string& structure) {
+  return read_structural_scene(
+      core::SceneFile::parse("time: {end: 1 s}\nstructure:\n" + structure, "scene.yaml"));
+}
+
+/// What is said about a structure that cannot be built.
+std::string complaint(const std::string& structure) {
+  try {
+    Structure built(scene(structure));
+  } catch (const core::ConfigError& error) {
+    return error.what();
+  }
+  return "no complaint";
+}
+
+const std::string cable = "cable: {area: 1 cm^2, density: 8000, youngs_modulus: 100 GPa}";
+const std::string net =
+    "  parts: {net: {square_net: {corner: [0, 0, 0], size: [3, 3], pitch: 1}, " + cable + "}}\n";
+const std::string line =
+    "  parts: {rope: {polyline: {points: [[0, 0, 0], [4, 0, 0]], divisions: 4}, " + cable + "}}\n";
+
+}  // namespace
+
+TEST_CASE("a square net of n x n openings has the nodes, cables, sets and mass that its geometry gives") {
+  const Structure structure(scene(net + "  supports: [{nodes: net.rim, fix: xyz}]\n"));
+  const Model& model = structure.model();
+  CHECK(model.nodes() == 16);
+  CHECK(std::get<CableBatch>(model.parts[0].elements).size() == 24);
+  CHECK(model.node_sets.at("net.rim").size() == 12);
+  double mass = 0;
+  for (const double m : model.node_masses) mass += m;
+  CHECK(mass == Approx(24 * 1.0 * 1e-4 * 8000));
+}
+
+TEST_CASE("welded parts share the nodes where they meet, and only those") {
+  const std::string two =
+      "  parts:\n    a: {polyline: {points: [[0, 0, 0], [1, 0, 0]], divisions: 2}, " + cable +
+      "}\n    b: {polyline: {points: [[1, 0.0005, 0], [2, 0, 0]], divisions: 2}, " + cable + "}\n";
+  CHECK(Structure(scene(two)).model().nodes() == 6);
+  const Structure welded(scene(two + "  weld: {tolerance: 1 mm}\n"));
+  CHECK(welded.model().nodes() == 5);
+  CHECK(welded.model().node_sets.at("a.end") == welded.model().node_sets.at("b.start"));
+}
+
+TEST_CASE("a rope leads through the nodes of another part, with ends of its own") {
+  const Structure structure(scene(
+      "  parts:\n    net: {square_net: {corner: [0, 0, 0], size: [3, 3], pitch: 1}, " + cable +
+      "}\n    rope: {through: {nodes: [net.edge_south], from: [-1, 0, 0], to: [4, 0, 0]}, " + cable + "}\n"));
+  const Model& model = structure.model();
+  CHECK(model.nodes() == 18);
+  const auto& rope = model.node_sets.at("rope");
+  REQUIRE(rope.size() == 6);
+  CHECK(model.position(rope.front()).x() == -1);
+  CHECK(model.position(rope.back()).x() == 4);
+  CHECK(rope[1] == model.node_sets.at("net.edge_south").front());
+}
+
+TEST_CASE("without a step the structure takes half of its limit") {
+  const Structure structure(scene(line));
+  CHECK(structure.step() == Approx(0.5 * std::sqrt(8000 / 1e11)).epsilon(1e-6));  // L sqrt(rho/E) of 1 m
+}
+
+TEST_CASE("a step above the limit is refused unless the scene insists") {
+  CHECK_THAT(
+      complaint(line + "  step: 1 ms\n"),
+      Catch::Contains(
+          "the step of 1 ms is above the limit of stability, 282.8 us: highest frequency of the structure"));
+  CHECK(complaint(line + "  step: 1 ms\n  unstable_step: allowed\n") == "no complaint");
+}
+
+TEST_CASE("bad structures get complaints that name the entity and where it is") {
+  const auto check = [](const std::string& structure, const std::string& expected) {
+    CHECK_THAT(complaint(structure), Catch::Contains(expected));
+  };
+  check(
+      "  parts: {m: {mesh: {nodes: [[0, 0, 0], [1, 0, 0], [5, 5, 5]], segments: [[0, 1]]}, " + cable + "}}\n",
+      "(5, 5, 5)");
+  check("  parts: {m: {mesh: {nodes: [[0, 0, 0], [0, 0, 0]], segments: [[0, 1]]}, " + cable + "}}\n",
+        "segment");
+  check("  parts: {m: {mesh: {nodes: [[0, 0, 0], [1, 0, 0]], segments: [[0, 7]]}, " + cable + "}}\n",
+        "an element names node 7, but the nodes are numbered 0 to 1");
+  check(line + "  supports: [{nodes: rope.beginning, fix: xyz}]\n",
+        "there is no node set 'rope.beginning'; known here: rope");
+  check(line + "  supports: [{at: [9, 0, 0], fix: xyz}]\n",
+        "no node at (9, 0, 0) m; the nearest is node 4 of rope at (4, 0, 0) m, 5 m away");
+  check(line + "  supports: [{box: {low: [5, 5, 5], high: [6, 6, 6]}, fix: xyz}]\n",
+        "no node between (5, 5, 5) m and (6, 6, 6) m");
+  check(line + "  supports: [{nodes: rope, fix: xq}]\n",
+        "must be made of the letters x, y and z, but is 'xq'");
+  check(line + "  supports: [{nodes: rope, at: [0, 0, 0], fix: x}]\n",
+        "needs exactly one of `nodes`, `at` and `box`");
+  check(line + "  loads: [{nodes: rope, force: [1, 0, 0], over_time: [[1, 0], [0, 1]]}]\n",
+        "needs times that increase");
+  check("  parts: {rope: {polyline: {points: [[0, 0, 0]]}, " + cable + "}}\n", "needs at least two points");
+  check(
+      "  parts: {rope: {polyline: {points: [[0, 0, 0], [1, 0, 0]]}, cable: {area: -1, density: 1, "
+      "youngs_modulus: 1}}}\n",
+      "structure.parts.rope.cable.area");
+  check("  parts: {s: {sheet: {corner: [0, 0, 0], size: [1, 1], element_size: 0.5}, " + cable + "}}\n",
+        "a cable needs a shape made of lines");
+}
+
+TEST_CASE("the example of a hanging net can be built") {
+  const auto file = core::SceneFile::load(TALUS_SOURCE_DIR "/configs/examples/hanging_net.yaml");
+  const Structure structure(read_structural_scene(file));
+  CHECK(structure.model().nodes() == 121);
+}
