@@ -25,21 +25,23 @@ mesh::Surface surface_of(const NodesScene& nodes) {
         {node(nodes.triangles[k]), node(nodes.triangles[k + 1]), node(nodes.triangles[k + 2])});
   return surface;
 }
-mesh::Surface surface_of(const mesh::SquareNetScene& net) {
-  return mesh::generate(net).surface;
-}
-mesh::Surface surface_of(const mesh::SheetScene& sheet) {
-  return mesh::generate(sheet).surface;
+template <class Shape>
+mesh::Surface surface_of(const Shape& shape) {
+  return mesh::generate(shape).surface;
 }
 
-/// The boundary's shape as a surface of one part.
+/// The boundary's shape as a surface whose parts are the boundary's.
 mesh::Surface surface_of(const std::string& name, const BoundaryScene& boundary) {
   mesh::Surface surface = std::visit([](const auto& shape) { return surface_of(shape); }, boundary.shape);
-  surface.parts = {{.name = name,
-                    .material = boundary.material,
-                    .wire_radius = boundary.wire_radius,
-                    .segment_end = static_cast<mesh::Index>(surface.segments.size()),
-                    .triangle_end = static_cast<mesh::Index>(surface.triangles.size())}};
+  if (surface.parts.empty())
+    surface.parts = {{.name = name,
+                      .segment_end = static_cast<mesh::Index>(surface.segments.size()),
+                      .triangle_end = static_cast<mesh::Index>(surface.triangles.size())}};
+  for (auto& part : surface.parts) {
+    part.name = name;
+    part.material = boundary.material;
+    part.wire_radius = boundary.wire_radius.value_or(part.wire_radius);
+  }
   return surface;
 }
 
@@ -69,13 +71,14 @@ void describe(core::Fields& fields, NodesScene& nodes) {
 
 void describe(core::Fields& fields, BoundaryScene& boundary) {
   fields.required("material", boundary.material, {.help = "contact material"});
-  fields.with_default(
-      "wire_radius", boundary.wire_radius,
-      {.unit = "m", .range = core::not_negative, .help = "of segments; 0: their axes are touched"});
+  fields.optional("wire_radius", boundary.wire_radius,
+                  {.unit = "m",
+                   .range = core::not_negative,
+                   .help = "of segments; 0: their axes are touched; absent: that of the net, or 0"});
   fields.optional("velocity", boundary.velocity, {.unit = "m/s", .help = "constant; absent: at rest"});
-  fields.one_of(boundary.shape, {{"square_net", "wires of a square net"},
-                                 {"sheet", "a flat panel of triangles"},
-                                 {"nodes", "wires and triangles written out"}});
+  fields.one_of(boundary.shape, mesh::net_alternatives({{"sheet", "a flat panel of triangles"},
+                                                        {"mesh_file", "a mesh made elsewhere"},
+                                                        {"nodes", "wires and triangles written out"}}));
 }
 
 mesh::Surface make_surface(const std::vector<std::pair<std::string, BoundaryScene>>& boundaries) {

@@ -7,8 +7,9 @@
 #include <vector>
 
 #include "core/scene/fields.hpp"
+#include "interface_mesh/scene/mesh_file.hpp"
+#include "interface_mesh/scene/nets.hpp"
 #include "interface_mesh/scene/sheet.hpp"
-#include "interface_mesh/scene/square_net.hpp"
 
 /// `particles.planes` and `particles.boundaries` of a scene.
 namespace talus::dem {
@@ -30,13 +31,13 @@ void describe(core::Fields& fields, NodesScene& nodes);
 
 struct BoundaryScene {
   std::string material;
-  double wire_radius = 0;                 ///< m
+  std::optional<double> wire_radius;      ///< m; absent: that of the net, or 0
   std::optional<core::Vector3> velocity;  ///< m/s
-  std::variant<mesh::SquareNetScene, mesh::SheetScene, NodesScene> shape;
+  mesh::NetChoice<mesh::SheetScene, mesh::MeshFileScene, NodesScene> shape;
 };
 void describe(core::Fields& fields, BoundaryScene& boundary);
 
-/// The surface of all boundaries, a part each, named after its key.
+/// The surface of all boundaries; its parts are named after the boundary they belong to.
 /// @pre the scene was read without complaints
 mesh::Surface make_surface(const std::vector<std::pair<std::string, BoundaryScene>>& boundaries);
 

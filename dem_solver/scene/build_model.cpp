@@ -144,9 +144,10 @@ ParticleModel build_model(const ParticlesScene& particles, const mesh::Surface& 
                             .normal = triple_of(plane.normal.normalized()),
                             .material = static_cast<Index>(material_index(particles, plane.material))});
   if (!surface.parts.empty()) model.boundary = Boundary(surface, materials_of_parts(particles, surface));
-  for (std::size_t k = 0; k < particles.boundaries.size() && k < surface.parts.size(); ++k)
-    if (particles.boundaries[k].second.velocity)
-      model.boundary.set_velocity(static_cast<Index>(k), triple_of(*particles.boundaries[k].second.velocity));
+  for (std::size_t k = 0; k < surface.parts.size(); ++k)
+    for (const auto& [name, boundary] : particles.boundaries)
+      if (boundary.velocity && name == surface.parts[k].name)
+        model.boundary.set_velocity(static_cast<Index>(k), triple_of(*boundary.velocity));
   model.pairs = pair_table(particles);
   model.law = law_of(particles, context);
   if (particles.gravity) model.gravity = triple_of(*particles.gravity);

@@ -56,11 +56,11 @@ void describe(core::Fields& fields, ThroughScene& through) {
 }
 
 void describe_shape(core::Fields& fields, ShapeScene& shape) {
-  fields.one_of(shape, {{"square_net", "wires along two directions at a pitch"},
-                        {"polyline", "a rope or bar along straight lines"},
-                        {"mesh", "nodes and elements written out"},
-                        {"sheet", "a panel filled with triangles"},
-                        {"through", "a rope through nodes of other parts"}});
+  fields.one_of(shape, mesh::net_alternatives({{"sheet", "a panel filled with triangles"},
+                                               {"mesh_file", "a mesh made elsewhere"},
+                                               {"polyline", "a rope or bar along straight lines"},
+                                               {"mesh", "nodes and elements written out"},
+                                               {"through", "a rope through nodes of other parts"}}));
 }
 
 mesh::Net generate(const PolylineScene& polyline) {

@@ -10,8 +10,9 @@
 
 #include "core/scene/fields.hpp"
 #include "interface_mesh/net.hpp"
+#include "interface_mesh/scene/mesh_file.hpp"
+#include "interface_mesh/scene/nets.hpp"
 #include "interface_mesh/scene/sheet.hpp"
-#include "interface_mesh/scene/square_net.hpp"
 
 /// Where the nodes and elements of a part come from.
 namespace talus::fem {
@@ -40,7 +41,7 @@ struct ThroughScene {
 void describe(core::Fields& fields, ThroughScene& through);
 
 using ShapeScene =
-    std::variant<mesh::SquareNetScene, PolylineScene, MeshScene, mesh::SheetScene, ThroughScene>;
+    mesh::NetChoice<mesh::SheetScene, mesh::MeshFileScene, PolylineScene, MeshScene, ThroughScene>;
 void describe_shape(core::Fields& fields, ShapeScene& shape);
 
 mesh::Net generate(const PolylineScene& polyline);
