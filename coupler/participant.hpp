@@ -68,9 +68,9 @@ struct Declaration {
   double step = 0;      ///< s; its own step inside a window; 0: one step a window, whatever its length
   bool insists_on_step =
       false;  ///< the scene allows a step above a stability limit; else the coupler refuses it before time 0
-  std::vector<StepLimit> limits;
-  std::vector<Effect> effects;
-  core::OutputDescription outputs;
+  std::vector<StepLimit> limits{};
+  std::vector<Effect> effects{};
+  core::OutputDescription outputs{};
 };
 
 /// Interface values of one window, at the nodes of this side's surface, 3 a node. The structure's

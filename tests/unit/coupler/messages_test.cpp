@@ -1,0 +1,95 @@
+#include "coupler/messages/messages.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "core/errors.hpp"
+#include "coupler/messages/output_arrays.hpp"
+
+using namespace talus;
+using namespace talus::coupler;
+using Catch::Matchers::Contains;
+
+TEST_CASE("a surface arrives as it was sent") {
+  PublishedSurface sent;
+  sent.surface.positions = {0, 0, 0, 1, 0.1, -1e-300, 0, 1, 1. / 3};
+  sent.surface.segments = {{0, 1}, {1, 2}};
+  sent.surface.triangles = {{0, 1, 2}};
+  sent.surface.parts = {
+      {.name = "net", .material = "wire", .wire_radius = 0.002, .segment_end = 2, .triangle_end = 1}};
+  sent.node_masses = {0.03, 0.04, 0.05};
+  const PublishedSurface got = decode_surface(encode(sent));
+  CHECK(got.surface == sent.surface);
+  CHECK(got.node_masses == sent.node_masses);
+}
+
+TEST_CASE("a declaration arrives as it was sent") {
+  Declaration sent{.program = "dummy 1.0", .step = 5e-5, .insists_on_step = true};
+  sent.limits = {{.name = "bars", .seconds = 6e-5, .stability = true, .reason = "2/w"}};
+  sent.effects = {{.name = "friction", .present = true, .reason = "named"}};
+  sent.outputs.probes = {{"a.displacement_z_m"}};
+  sent.outputs.ledger = {{"structure.kinetic_J", core::LedgerKind::stored},
+                         {"structure.damping_J", core::LedgerKind::dissipated}};
+  sent.outputs.groups = {
+      {.name = "net",
+       .kind = core::CellKind::segment,
+       .nodes = 3,
+       .cells = {0, 1, 1, 2},
+       .fields = {{.name = "force", .unit = "N", .components = 1, .location = core::FieldLocation::cell}}}};
+  const Declaration got = decode_declaration(encode(sent));
+  CHECK(got.program == sent.program);
+  CHECK(got.step == sent.step);
+  CHECK(got.insists_on_step);
+  REQUIRE(got.limits.size() == 1);
+  CHECK(got.limits[0].reason == "2/w");
+  REQUIRE(got.outputs.ledger.size() == 2);
+  CHECK(got.outputs.ledger[1].kind == core::LedgerKind::dissipated);
+  REQUIRE(got.outputs.groups.size() == 1);
+  CHECK(got.outputs.groups[0].cells == sent.outputs.groups[0].cells);
+  CHECK(got.outputs.groups[0].fields[0].location == core::FieldLocation::cell);
+}
+
+TEST_CASE("a message cut short is the sender's fault, not a crash") {
+  const Bytes whole = encode(PublishedSurface{.surface = {.positions = {0, 0, 0}}, .node_masses = {1}});
+  for (std::size_t size = 0; size < whole.size(); ++size) {
+    CHECK_THROWS_AS(decode_surface(ByteView(whole).first(size)), core::TransportError);
+  }
+}
+
+TEST_CASE("errors of a participant are the same errors in the coupler") {
+  const FailureContext context{
+      .peer = "structure (x, pid 1)", .waited_for = "the answer to 'advance'", .window = 4};
+  const core::ConfigError config(std::vector<core::Complaint>{{"a.yaml", 1, 2, "k", "is wrong"}});
+  try {
+    throw_failure(encode_failure(config), context);
+  } catch (const core::ConfigError& error) {
+    CHECK(error.complaints() == config.complaints());
+  }
+  const core::NumericalError numerical(
+      {.what = "x is not finite", .entity = "node 3", .step = 7, .time = 0.1, .value = NAN});
+  CHECK_THROWS_WITH(throw_failure(encode_failure(numerical), context), std::string(numerical.what()));
+  CHECK_THROWS_WITH(throw_failure(encode_failure(std::runtime_error("no licence")), context),
+                    Contains("structure (x, pid 1) gave up (no licence)") && Contains("window 4"));
+}
+
+TEST_CASE("output values of a participant stand side by side and do not overlap") {
+  core::OutputDescription description;
+  description.probes.resize(2);
+  description.ledger.resize(3);
+  description.groups = {
+      {.name = "a",
+       .kind = core::CellKind::segment,
+       .nodes = 4,
+       .cells = {0, 1, 1, 2, 2, 3},
+       .fields = {{.name = "u", .unit = "m", .components = 3},
+                  {.name = "N", .unit = "N", .components = 1, .location = core::FieldLocation::cell}}}};
+  const OutputArrays arrays(description);
+  std::vector<double> block(arrays.size());
+  CHECK(arrays.size() == 2 + 3 + 12 + 12 + 3);
+  const auto start = [&](std::span<double> part) { return part.data() - block.data(); };
+  CHECK(start(arrays.probes(block)) == 0);
+  CHECK(start(arrays.ledger(block)) == 2);
+  CHECK(start(arrays.positions(block, 0)) == 5);
+  CHECK(start(arrays.field(block, 0, 0)) == 17);
+  CHECK(start(arrays.field(block, 0, 1)) == 29);
+  CHECK(arrays.field(block, 0, 1).size() == 3);
+}

@@ -1,0 +1,82 @@
+#include <catch2/catch.hpp>
+
+#include "core/errors.hpp"
+#include "coupler/run/schedule.hpp"
+#include "coupler/scene/coupled_scene.hpp"
+#include "coupler/schemes/work_meter.hpp"
+
+using namespace talus;
+using namespace talus::coupler;
+
+TEST_CASE("output falls on the windows nearest to the multiples of its interval") {
+  const Span span{.end = 1e-2, .window_length = 3e-4};
+  constexpr double every = 1e-3;
+  Schedule schedule(span, every);
+  std::vector<std::int64_t> due;
+  for (std::int64_t n = 0; n < span.windows(); ++n) {
+    if (!schedule.due(n)) continue;
+    due.push_back(n);
+    schedule.done(n);
+  }
+  std::vector<std::int64_t> expected;
+  const auto nearest = [&](int k) { return std::llround(k * every / span.window_length); };
+  for (int k = 0; nearest(k) < span.windows(); ++k) expected.push_back(nearest(k));
+  CHECK(due == expected);
+  CHECK(static_cast<std::int64_t>(due.size()) <= schedule.count(span.windows()));
+}
+
+TEST_CASE("a million windows are a million windows, not one more by round-off") {
+  CHECK(Span{.end = 50.0, .window_length = 50e-6}.windows() == 1000000);
+  CHECK(Span{.end = 0.2, .window_length = 50e-6}.windows() == 4000);
+  CHECK(Span{.end = 1.01e-3, .window_length = 1e-3}.windows() == 2);
+}
+
+TEST_CASE("work is force times path, window by window") {
+  WorkMeter meter;
+  const std::vector<double> force{0, 2, -1}, start{5, 1, 1}, end{7, 4, 3};
+  meter.begin(force, start);
+  meter.end(end);
+  CHECK(meter.joules() == 2 * (4 - 1) + -1 * (3 - 1));
+  meter.begin(force, end);
+  meter.end(end);  // nothing moved
+  CHECK(meter.joules() == 4);
+}
+
+namespace {
+
+std::vector<std::string> complaints_about(const std::string& yaml) {
+  std::vector<core::Complaint> complaints;
+  read_coupled_scene(core::SceneFile::parse(yaml, "s.yaml"), complaints);
+  std::vector<std::string> texts;
+  for (const auto& complaint : complaints) texts.push_back(complaint.text());
+  return texts;
+}
+
+const std::string sides = "time: {end: 1 s, step: 1 ms}\nstructure: {anything: 1}\nparticles: {at: all}\n";
+
+}  // namespace
+
+TEST_CASE("the coupler reads its own sections and leaves the solvers theirs") {
+  CHECK(complaints_about(sides).empty());
+  CHECK(complaints_about(
+            sides + "interface: {structure: [net], boundary: {same_as_structure: {wire_radius: 4 mm}}}\n")
+            .empty());
+}
+
+TEST_CASE("scenes the coupler cannot run are refused with the reason") {
+  using Texts = std::vector<std::string>;
+  CHECK(complaints_about("time: {end: 1 s, step: 1 ms}\n") ==
+        Texts{"s.yaml: has neither a section 'structure' nor a section 'particles'"});
+  CHECK(complaints_about("time: {end: 1 s, step: 1 ms}\nstructure: {}\n"
+                         "interface: {structure: [net], boundary: {same_as_structure: {}}}\n") ==
+        Texts{"s.yaml: interface: needs both a structure and particles, but the scene has only one of them"});
+  CHECK(complaints_about("time: {end: 1 s}\nstructure: {}\n") ==
+        Texts{"s.yaml: time.step: is missing, and so is 'coupling.window'"});
+  CHECK(complaints_about(sides + "coupling: {timeout: -1 s}\n").size() == 1);
+  CHECK(complaints_about(sides + "coupling: {join_timeout: 0 s, window: 0 s}\n").size() == 2);
+  CHECK(complaints_about(sides + "interface: {structure: [], boundary: {same_as_structure: {}}}\n") ==
+        Texts{"s.yaml:4:13: interface.structure: must name at least one part"});
+  CHECK(complaints_about(
+            sides + "interface: {structure: [net], boundary: {same_as_structure: {wire_radius: -1 mm}}}\n")
+            .size() == 1);
+}
