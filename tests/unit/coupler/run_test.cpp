@@ -75,7 +75,7 @@ TEST_CASE("scenes the coupler cannot run are refused with the reason") {
   CHECK(complaints_about(sides + "coupling: {timeout: -1 s}\n").size() == 1);
   CHECK(complaints_about(sides + "coupling: {join_timeout: 0 s, window: 0 s}\n").size() == 2);
   CHECK(complaints_about(sides + "interface: {structure: [], boundary: {same_as_structure: {}}}\n") ==
-        Texts{"s.yaml:4:13: interface.structure: must name at least one part"});
+        Texts{"s.yaml:4:24: interface.structure: must name at least one part"});
   CHECK(complaints_about(
             sides + "interface: {structure: [net], boundary: {same_as_structure: {wire_radius: -1 mm}}}\n")
             .size() == 1);
