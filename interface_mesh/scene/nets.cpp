@@ -117,14 +117,27 @@ void describe(core::Fields& fields, RingNetScene& net) {
   if (bundle < thickest) limit_size(fields, net.panel, lattice(net.pattern()));
 }
 
+Lattice lattice(const SquareNetScene& net) {
+  return lattice(SquarePattern{.pitch = net.pitch, .wire_diameter = net.wire_diameter});
+}
+Lattice lattice(const RhombicNetScene& net) {
+  return lattice(net.pattern());
+}
+Lattice lattice(const HexagonalNetScene& net) {
+  return lattice(net.pattern());
+}
+Lattice lattice(const RingNetScene& net) {
+  return lattice(net.pattern());
+}
+
 Net generate(const RhombicNetScene& net) {
-  return clip(lattice(net.pattern()), make_panel(net.panel));
+  return clip(lattice(net), make_panel(net.panel));
 }
 Net generate(const HexagonalNetScene& net) {
-  return clip(lattice(net.pattern()), make_panel(net.panel));
+  return clip(lattice(net), make_panel(net.panel));
 }
 Net generate(const RingNetScene& net) {
-  return clip(lattice(net.pattern()), make_panel(net.panel));
+  return clip(lattice(net), make_panel(net.panel));
 }
 
 std::vector<core::Fields::Alternative> net_alternatives(

@@ -52,6 +52,12 @@ Net generate(const RhombicNetScene& net);
 Net generate(const HexagonalNetScene& net);
 Net generate(const RingNetScene& net);
 
+/// The repeating pattern of a net, whatever its panel.
+Lattice lattice(const SquareNetScene& net);
+Lattice lattice(const RhombicNetScene& net);
+Lattice lattice(const HexagonalNetScene& net);
+Lattice lattice(const RingNetScene& net);
+
 /// A choice of nets and of what else a section allows, for Fields::one_of together with net_alternatives().
 template <class... Others>
 using NetChoice = std::variant<SquareNetScene, RhombicNetScene, HexagonalNetScene, RingNetScene, Others...>;
