@@ -124,6 +124,18 @@ std::filesystem::path SceneFile::resolve(const std::string& written) const {
   return content_->path.parent_path() / written;
 }
 
+std::filesystem::path SceneFile::path_at(const std::string& key_path) const {
+  const SceneNode* node = &content_->root;
+  std::istringstream keys(key_path);
+  for (std::string key; node != nullptr && std::getline(keys, key, '.');) {
+    const SceneEntry* entry = node->find(key);
+    node = entry == nullptr ? nullptr : &entry->value;
+  }
+  if (node == nullptr || node->kind != SceneNode::Kind::scalar) return {};
+  const auto& file = node->place.file ? *node->place.file : content_->path;
+  return file.parent_path() / node->scalar;
+}
+
 std::string SceneFile::text() const {
   return canonical_text(content_->root);
 }

@@ -38,6 +38,9 @@ class SceneFile {
   std::string title() const;
   /// A path written in the scene, relative to the file it stands in.
   std::filesystem::path resolve(const std::string& written) const;
+  /// The path that stands at "structure.solver", relative to the file it was written in, which may be one
+  /// that this scene extends. Empty where nothing or no text stands there.
+  std::filesystem::path path_at(const std::string& key_path) const;
   /// Hexadecimal digest of the effective content (after `extends`), the `scene_hash` of summaries.
   std::string hash() const;
   bool has_section(const std::string& key) const;

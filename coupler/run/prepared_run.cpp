@@ -21,13 +21,14 @@ std::optional<launch::Program> program_of(const SideProgram& side, const core::S
         {launch::own_solver(side.own_program), file.path(), "--threads", std::to_string(threads)}};
   }
   const std::string& written = *side.scene->solver;
-  auto program = launch::named_solver(written, file.resolve(written));
+  const std::string key_path = std::string(name_of(side.role)) + ".solver";
+  auto program = launch::named_solver(written, file.path_at(key_path));
   if (program) {
     program->command.push_back(file.path());
   } else {
     complaints.push_back(
         {.file = file.path(),
-         .key_path = std::string(name_of(side.role)) + ".solver",
+         .key_path = key_path,
          .message = "names the program '" + written +
                     "', which is not there: looked relative to the scene, beside talus, and on PATH"});
   }

@@ -1,7 +1,7 @@
 """Explicit central differences as a leapfrog: positions at whole steps, velocities half a step before."""
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -16,14 +16,15 @@ class State:
     velocity: np.ndarray  #: m/s, at t_n - step/2
     old_displacement: np.ndarray  #: m, at t_(n-1), where forces were evaluated last
     old_velocity: np.ndarray  #: m/s, at t_(n-1) - step/2
-    damping_work: float = 0.0  #: J, up to t_n - step/2
-    last_damping_work: float = 0.0  #: J, of the last step
+    damped: float = 0.0  #: J, taken by damping up to t_(n-1)
+    damped_since: float = 0.0  #: J, from then to t_n - step/2
+    supplied: float = 0.0  #: J, work of the outer forces up to t_(n-1)
+    supplied_since: float = 0.0  #: J, from then to t_n - step/2
     steps: int = 0
 
     def copy(self) -> State:
-        """A state of its own."""
-        arrays = (self.displacement, self.velocity, self.old_displacement, self.old_velocity)
-        return State(*(array.copy() for array in arrays), self.damping_work, self.last_damping_work, self.steps)
+        """A state of its own. Steps replace the arrays and never write into them, so the copy may share them."""
+        return replace(self)
 
 
 def at_rest(nodes: int) -> State:
@@ -58,7 +59,7 @@ class Motion:
         state.old_velocity = before if state.steps > 0 else -state.velocity
         state.old_displacement = state.displacement
         state.displacement = state.displacement + step * state.velocity
-        self._account(state, step)
+        self._account(state, force, step)
         state.steps += 1
 
     def kinetic_energy(self, state: State) -> float:
@@ -73,8 +74,12 @@ class Motion:
         half = self.mass_damping * step / 2
         return ((1 - half) * state.velocity + step * acceleration) / (1 + half)
 
-    def _account(self, state: State, step: float) -> None:
+    def _account(self, state: State, force: np.ndarray, step: float) -> None:
+        """The force at t_n acts over half a step before, with the velocity there, and over half a step after."""
         middle = (state.old_velocity + state.velocity) / 2
-        squares = np.einsum("ij,ij->i", middle, middle)
-        state.last_damping_work = self.mass_damping * step * float(self.net.node_masses @ squares)
-        state.damping_work += state.last_damping_work
+        drag = self.mass_damping * self.net.node_masses[:, None] * middle
+        outer = force + self.net.node_masses[:, None] * self.gravity
+        before, after = step / 2 * state.old_velocity, step / 2 * state.velocity
+        state.damped += state.damped_since + float(np.sum(drag * before))
+        state.supplied += state.supplied_since + float(np.sum(outer * before))
+        state.damped_since, state.supplied_since = float(np.sum(drag * after)), float(np.sum(outer * after))

@@ -36,8 +36,9 @@ def declaration(model: Model) -> talus.Declaration:
     return talus.Declaration(
         program=PROGRAM, step=model.step, limits=[limit],
         probes=[f"{probe.name}.displacement_{axis}_m" for probe in model.probes for axis in AXES],
-        ledger=[talus.LedgerLine("structure.kinetic_J"), talus.LedgerLine("structure.elastic_J"),
-                talus.LedgerLine("structure.mass_damping_J", talus.LedgerKind.dissipated)],
+        ledger=[talus.LedgerLine("structure.kinetic_J"), talus.LedgerLine(f"structure.elastic_{model.part}_J"),
+                talus.LedgerLine("structure.bulk_damping_J", talus.LedgerKind.dissipated),
+                talus.LedgerLine("structure.outer_forces_J", talus.LedgerKind.supplied)],
         groups=[group])
 
 
@@ -78,7 +79,7 @@ class Service:
         nodes = [probe.node for probe in self._model.probes]
         self._participant.probes()[:] = state.displacement[nodes].ravel()
         self._participant.ledger()[:] = [self._model.motion.kinetic_energy(state), net.energy(state.old_displacement),
-                                         state.damping_work - state.last_damping_work / 2]
+                                         state.damped, state.supplied]
         if command.fields:
             self._participant.positions(0)[:] = net.reference + state.displacement
             self._participant.field(0, 0)[:] = state.displacement

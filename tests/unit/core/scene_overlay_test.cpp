@@ -107,6 +107,17 @@ TEST_CASE("complaints keep naming the file that the value came from") {
             ":2:19: section.times[0]: expects a time such as '50 us', got '1 kg'");
 }
 
+TEST_CASE("a path is relative to the file it was written in, which may be one that the scene extends") {
+  Folder folder;
+  folder.add("bases/base.yaml", "section: {mesh: net.msh, solver: old.py}")
+      .add("scene.yaml", "extends: bases/base.yaml\nsection: {solver: new.py}");
+  const auto file = core::SceneFile::load(folder / "scene.yaml");
+  CHECK(file.path_at("section.mesh") == folder / "bases/net.msh");
+  CHECK(file.path_at("section.solver") == folder / "new.py");
+  CHECK(file.path_at("section.nothing").empty());
+  CHECK(file.path_at("section").empty());
+}
+
 TEST_CASE("a scene that extends itself, a missing base and a base that is no path are errors at the key") {
   Folder folder;
   folder.add("a.yaml", "extends: b.yaml")
