@@ -93,6 +93,7 @@ class SceneReader {
   }
   /// A complaint found by the caller, e.g. a name that no other section defines.
   void complain(Complaint complaint) { complaints_.push_back(std::move(complaint)); }
+  bool has_complaints() const { return !complaints_.empty(); }
   /// @throws ConfigError with all complaints so far, sorted by place.
   void finish();
 

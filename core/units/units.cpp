@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <charconv>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -130,6 +131,17 @@ UnitConversion convert(const Quantity& given, const std::string& wanted) {
   if (!given.unit.empty() && !looks_like_unit(given.unit)) return {};
   const UnitConversion found = unit_system().factor(given.unit, wanted);
   return {found.outcome, found.outcome == UnitConversion::Outcome::ok ? scaled(given.value, found.value) : 0};
+}
+
+std::optional<double> parse_quantity(const std::string& text, const std::string& wanted) {
+  double number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc{} || !std::isfinite(number)) return std::nullopt;
+  const auto rest = static_cast<std::size_t>(end - text.data());
+  const auto unit = text.find_first_not_of(' ', rest);
+  if (unit == std::string::npos) return number;
+  const auto conversion = convert({number, text.substr(unit)}, wanted);
+  return conversion.outcome == UnitConversion::Outcome::ok ? std::optional(conversion.value) : std::nullopt;
 }
 
 std::string expected_quantity(const std::string& unit) {

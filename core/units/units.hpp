@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 /// Units of measure as scenes write them, through UDUNITS-2 ("mm", "N/mm^2", "1/s", "deg").
@@ -22,6 +23,10 @@ struct Quantity {
 /// ("3 m") are unknown on purpose. Safe to call from several threads. Exact where the factor is a power of
 /// ten: 50 us is 5e-5 s to the bit.
 UnitConversion convert(const Quantity& given, const std::string& wanted);
+
+/// A number with or without a unit, "50 us" or "0.2", in the unit `wanted`; nothing where the text is no such
+/// value.
+std::optional<double> parse_quantity(const std::string& text, const std::string& wanted);
 
 /// "a length such as '4 mm'" for "m"; "a plain number" for "".
 std::string expected_quantity(const std::string& unit);

@@ -65,6 +65,13 @@ TEST_CASE("several threads may convert at the same time") {
     CHECK(found[i] == Approx(i % 2 ? 1e-3 : inch).epsilon(1e-15));
 }
 
+TEST_CASE("a quantity is a number with or without a unit, and nothing else") {
+  CHECK(core::parse_quantity("50 us", "s") == 50e-6);
+  CHECK(core::parse_quantity("0.2", "s") == 0.2);
+  CHECK(core::parse_quantity("4mm", "m") == 4e-3);
+  for (const char* text : {"", "us", "50 kg", "nan", "1 2 s"}) CHECK_FALSE(core::parse_quantity(text, "s"));
+}
+
 TEST_CASE("quantities print with the prefix that keeps them short") {
   CHECK(core::readable(5e-5, "s") == "50 us");
   CHECK(core::readable(0.0125, "m") == "12.5 mm");

@@ -1,0 +1,88 @@
+#include "coupler/study/plan.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+
+#include "core/scene/tree.hpp"
+#include "core/units/units.hpp"
+
+namespace talus::study {
+namespace {
+
+/// "a.b.c" and a value as the nested maps {a: {b: {c: value}}}.
+core::SceneNode nested(const Setting& setting) {
+  std::string text, closing;
+  for (std::size_t begin = 0; begin <= setting.key.size();) {
+    const std::size_t end = std::min(setting.key.find('.', begin), setting.key.size());
+    text += (begin == 0 ? "" : "{") + setting.key.substr(begin, end - begin) + ": ";
+    if (begin != 0) closing += "}";
+    begin = end + 1;
+  }
+  std::vector<core::Complaint> complaints;
+  auto node = core::parse_yaml(text + setting.value + closing, "setting of " + setting.key, complaints);
+  if (!complaints.empty())
+    throw core::ConfigError(fmt::format("{}: cannot be set to {}", setting.key, core::quoted(setting.value)));
+  return node;
+}
+
+std::string scene_text(const std::vector<Setting>& settings, const std::filesystem::path& base) {
+  core::SceneNode scene =
+      nested({"extends", core::canonical_text({core::SceneNode::Kind::scalar, {}, base.string()})});
+  for (const auto& setting : settings) scene = core::overlay(std::move(scene), nested(setting), 0);
+  return core::canonical_text(scene) + "\n";
+}
+
+std::string file_name(const std::string& text) {
+  std::string name = text;
+  std::replace_if(
+      name.begin(), name.end(),
+      [](unsigned char c) { return !std::isalnum(c) && c != '.' && c != '-' && c != '_'; }, '_');
+  return name;
+}
+
+class Planner {
+ public:
+  Planner(const StudyScene& study, const std::filesystem::path& folder)
+      : study_(study),
+        base_(std::filesystem::proximate(std::filesystem::absolute(study.base),
+                                         std::filesystem::absolute(folder) / "run")) {}
+
+  void add(const std::string& method, const std::vector<std::string>& values, bool shown) {
+    const auto found = std::find_if(study_.methods.begin(), study_.methods.end(),
+                                    [&](const auto& m) { return m.first == method; });
+    for (const auto& value : values) add(*found, value, shown);
+  }
+  std::vector<PlannedRun> take() { return std::move(runs_); }
+
+ private:
+  void add(const std::pair<std::string, Method>& method, const std::string& value, bool shown) {
+    const std::string id = file_name(method.first + "_" + value);
+    const auto same = std::find_if(runs_.begin(), runs_.end(), [&](const auto& run) { return run.id == id; });
+    if (same != runs_.end()) {
+      same->shown |= shown;
+      return;
+    }
+    std::vector<Setting> settings = method.second.set;
+    for (const auto& key : study_.sweep.keys) settings.push_back({key, value});
+    runs_.push_back({id, method.first, value, core::parse_quantity(value, study_.sweep.unit).value_or(0),
+                     shown, scene_text(settings, base_)});
+  }
+
+  const StudyScene& study_;
+  std::filesystem::path base_;
+  std::vector<PlannedRun> runs_;
+};
+
+}  // namespace
+
+std::vector<PlannedRun> plan(const StudyScene& study, const std::filesystem::path& folder) {
+  Planner planner(study, folder);
+  for (const auto& method : study.methods) planner.add(method.first, study.sweep.values, true);
+  planner.add(study.reference.method, study.reference.values, false);
+  if (study.second) planner.add(study.second->method, study.second->values, false);
+  return planner.take();
+}
+
+}  // namespace talus::study

@@ -1,0 +1,108 @@
+#include "coupler/study/values.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "core/errors.hpp"
+
+namespace talus::study {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+json summary_of(const fs::path& result) {
+  return json::parse(std::ifstream(result / "summary.json"));
+}
+
+Values single(const json& summary, const std::string& pointer) {
+  const json::json_pointer place(pointer);
+  if (!summary.contains(place) || !summary.at(place).is_number())
+    throw core::ConfigError(fmt::format("the summary of the runs has no number {}", pointer));
+  return {{}, {summary.at(place).get<double>()}};
+}
+
+std::vector<std::string> split(const std::string& line) {
+  std::vector<std::string> cells;
+  std::istringstream stream(line);
+  for (std::string cell; std::getline(stream, cell, ',');) cells.push_back(cell);
+  return cells;
+}
+
+Values history(const HistoryQuantity& quantity, const fs::path& result) {
+  std::ifstream table(result / "probes.csv");
+  std::string line;
+  std::getline(table, line);
+  const auto names = split(line);
+  const auto column =
+      static_cast<std::size_t>(std::find(names.begin(), names.end(), quantity.column) - names.begin());
+  if (column == names.size())
+    throw core::ConfigError(fmt::format("probes.csv of the runs has no column '{}'", quantity.column));
+  Values values;
+  while (std::getline(table, line)) {
+    const auto cells = split(line);
+    if (cells.size() != names.size()) break;  // the end of a run that was cut short
+    const double time = std::stod(cells.front());
+    if (quantity.until && time > *quantity.until) break;
+    values.times.push_back(time);
+    values.numbers.push_back(std::stod(cells[column]));
+  }
+  return values;
+}
+
+/// Linear between the rows; constant before the first and after the last.
+double at_time(const Values& values, double time) {
+  const auto after = std::lower_bound(values.times.begin(), values.times.end(), time);
+  if (after == values.times.begin()) return values.numbers.front();
+  if (after == values.times.end()) return values.numbers.back();
+  const auto i = static_cast<std::size_t>(after - values.times.begin());
+  const double share = (time - values.times[i - 1]) / (values.times[i] - values.times[i - 1]);
+  return values.numbers[i - 1] + share * (values.numbers[i] - values.numbers[i - 1]);
+}
+
+double number_at(const Values& values, const Values& like, std::size_t i) {
+  return like.times.empty() ? values.numbers.at(i) : at_time(values, like.times[i]);
+}
+
+}  // namespace
+
+Values read_values(const Quantity& quantity, const fs::path& result) {
+  if (const auto* peak = std::get_if<PeakQuantity>(&quantity.source))
+    return single(summary_of(result), "/peaks/" + peak->column + "/value");
+  if (const auto* number = std::get_if<SummaryQuantity>(&quantity.source))
+    return single(summary_of(result), number->pointer);
+  return history(std::get<HistoryQuantity>(quantity.source), result);
+}
+
+Values extrapolate(const Values& fine, const Values& coarse, const Refinement& refinement) {
+  Values limit = fine;
+  const double weight = 1 / (std::pow(refinement.ratio, refinement.order) - 1);
+  for (std::size_t i = 0; i < fine.numbers.size(); ++i)
+    limit.numbers[i] += weight * (fine.numbers[i] - number_at(coarse, fine, i));
+  return limit;
+}
+
+std::optional<double> observed_order(const std::vector<double>& finest_first, double ratio) {
+  if (finest_first.size() < 3) return std::nullopt;
+  const double quotient = (finest_first[2] - finest_first[1]) / (finest_first[1] - finest_first[0]);
+  if (!(quotient > 1)) return std::nullopt;
+  return std::log(quotient) / std::log(ratio);
+}
+
+double relative_difference(const Values& a, const Values& b) {
+  double difference = 0, size = 0;
+  for (std::size_t i = 0; i < b.numbers.size(); ++i) {
+    const double d = number_at(a, b, i) - b.numbers[i];
+    difference += d * d;
+    size += b.numbers[i] * b.numbers[i];
+  }
+  const double count = std::max<double>(1, static_cast<double>(b.numbers.size()));
+  return size > 0 ? std::sqrt(difference / size) : std::sqrt(difference / count);
+}
+
+}  // namespace talus::study
