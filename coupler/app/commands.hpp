@@ -25,6 +25,8 @@ void add_check(CLI::App& app, Chosen& chosen);
 void add_explain(CLI::App& app, Chosen& chosen);
 void add_schema(CLI::App& app, Chosen& chosen);
 void add_study(CLI::App& app, Chosen& chosen);
+void add_mesh(CLI::App& app, Chosen& chosen);
+void add_homogenise(CLI::App& app, Chosen& chosen);
 void add_version(CLI::App& app, Chosen& chosen);
 
 /// All of them, in the order of the help page.

@@ -62,7 +62,8 @@ void describe(core::Fields& fields, OwnBoundary<SurfaceScene>& boundary) {
 void describe(core::Fields& fields, BoundaryScene& boundary) {
   std::vector<core::Fields::Alternative> kinds{
       {"same_as_structure", "the particles touch the structure's own lines and triangles"}};
-  for (const auto& net : mesh::net_alternatives({{"sheet", "a panel filled with triangles"}}))
+  for (const auto& net : mesh::net_alternatives(
+           {{"sheet", "a panel filled with triangles"}, {"mesh_file", "a mesh made elsewhere"}}))
     kinds.push_back(net);
   fields.one_of(boundary.kind, kinds);
 }

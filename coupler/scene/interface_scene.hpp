@@ -7,6 +7,7 @@
 
 #include "core/scene/fields.hpp"
 #include "coupler/session/introduction.hpp"
+#include "interface_mesh/scene/mesh_file.hpp"
 #include "interface_mesh/scene/nets.hpp"
 #include "interface_mesh/scene/sheet.hpp"
 
@@ -28,9 +29,10 @@ struct OwnBoundary {
   std::string material;
 };
 
-using BoundaryChoice = std::variant<SameAsStructure, OwnBoundary<mesh::SquareNetScene>,
-                                    OwnBoundary<mesh::RhombicNetScene>, OwnBoundary<mesh::HexagonalNetScene>,
-                                    OwnBoundary<mesh::RingNetScene>, OwnBoundary<mesh::SheetScene>>;
+using BoundaryChoice =
+    std::variant<SameAsStructure, OwnBoundary<mesh::SquareNetScene>, OwnBoundary<mesh::RhombicNetScene>,
+                 OwnBoundary<mesh::HexagonalNetScene>, OwnBoundary<mesh::RingNetScene>,
+                 OwnBoundary<mesh::SheetScene>, OwnBoundary<mesh::MeshFileScene>>;
 struct BoundaryScene {
   BoundaryChoice kind;
 };
