@@ -8,8 +8,7 @@ endif()
 
 add_library(talus_warnings INTERFACE)
 target_compile_options(talus_warnings INTERFACE
-  $<$<COMPILE_LANGUAGE:CXX>:-Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -Wcast-align=strict
-                            -Wno-unknown-warning-option>)
+  $<$<COMPILE_LANGUAGE:CXX>:-Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -Wcast-align>)
 
 # The same bits on every run, machine and thread count: no contraction into fused operations, no reassociation.
 # -fno-math-errno only drops errno, which lets square roots vectorise.

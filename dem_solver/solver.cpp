@@ -31,6 +31,8 @@ ParticleSolver::ParticleSolver(ParticleModel model)
       skin_(model.skin),
       threads_(model.threads),
       contacts_(make_contact_model(model.law)) {
+  if (model.implicit_contact)
+    implicit_contact_ = {.control = *model.implicit_contact, .gravity = model.gravity};
   spheres_.add(model.spheres, law_.rotation());
   if (skin_ <= 0 && spheres_.size() > 0) skin_ = default_skin(spheres_);
   place_ = spheres_.places();
@@ -101,8 +103,7 @@ void ParticleSolver::evaluate_contacts() noexcept {
         model.pairs.evaluate({spheres_, pair_list_, pairs_, step_, threads_});
         if (!planes_.empty())
           model.planes.evaluate({spheres_, planes_, plane_list_, pairs_, step_, threads_});
-        if (!boundary_.empty())
-          model.boundary.evaluate({spheres_, boundary_, boundary_list_, pairs_, step_, threads_});
+        if (!boundary_.empty()) evaluate_boundary(model.boundary);
         if constexpr (Law::has_ledger) {
           work_ += model.pairs.last_work();
           work_ += model.planes.last_work();
@@ -110,6 +111,20 @@ void ParticleSolver::evaluate_contacts() noexcept {
         }
       },
       contacts_);
+}
+
+// After all other loads: implicit contact starts from the velocities they lead to.
+template <class Law>
+void ParticleSolver::evaluate_boundary(BoundaryContacts<Law>& contacts) noexcept {
+  const typename BoundaryContacts<Law>::Context context{spheres_, boundary_, boundary_list_,
+                                                        pairs_,   step_,     threads_};
+  if (!implicit_contact_) {
+    contacts.evaluate(context);
+    return;
+  }
+  const int sweeps = contacts.evaluate_implicitly(context, *implicit_contact_);
+  sweeps_ += sweeps;
+  if (sweeps > implicit_contact_->control.most_sweeps) ++unconverged_steps_;
 }
 
 void ParticleSolver::move_spheres() {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -19,9 +20,10 @@ struct ParticleModel {
   Boundary boundary;
   PairTable pairs;
   LawChoice law;
-  Triple<double> gravity;  ///< m/s^2
-  double step = 0;         ///< s
-  double skin = 0;         ///< m; 0: a fifth of the most frequent size class's radius
+  Triple<double> gravity;                                       ///< m/s^2
+  double step = 0;                                              ///< s
+  std::optional<ImplicitVelocities::Control> implicit_contact;  ///< with the boundary; absent: explicit
+  double skin = 0;  ///< m; 0: a fifth of the most frequent size class's radius
   int threads = 1;
 };
 
@@ -75,6 +77,9 @@ class ParticleSolver {
   const LawChoice& law() const noexcept { return law_; }
   /// How often the neighbour lists were built.
   std::int64_t searches() const noexcept { return searches_; }
+  /// Of implicit contact: sweeps of all steps so far, and steps whose sweeps did not converge.
+  std::int64_t sweeps() const noexcept { return sweeps_; }
+  std::int64_t unconverged_steps() const noexcept { return unconverged_steps_; }
 
   /// @pre the model's law has a ledger
   ParticleLedger ledger() const noexcept;
@@ -84,6 +89,8 @@ class ParticleSolver {
   double largest_motion() const noexcept;
   void clear_loads() noexcept;
   void evaluate_contacts() noexcept;
+  template <class Law>
+  void evaluate_boundary(BoundaryContacts<Law>& contacts) noexcept;
   void move_spheres();
   [[noreturn]] void report_not_finite() const;
   double gravity_work_level() const noexcept;
@@ -96,6 +103,7 @@ class ParticleSolver {
   Triple<double> gravity_;
   double step_ = 0;
   double skin_ = 0;
+  std::optional<ImplicitContact> implicit_contact_;
   int threads_ = 1;
 
   PairList pair_list_;
@@ -110,6 +118,7 @@ class ParticleSolver {
   double clock_time_ = 0;
   std::int64_t clock_steps_ = 0;
   std::int64_t searches_ = 0;
+  std::int64_t sweeps_ = 0, unconverged_steps_ = 0;
   ContactWork work_;
   double gravity_level_at_start_ = 0;
 };

@@ -65,6 +65,17 @@ void Boundary::drift(double time) noexcept {
     position_[i] = row(triple<double>(reference_[i]) + time * triple<double>(velocity_[i]));
 }
 
+void Boundary::set_node_masses(std::span<const double> masses) {
+  free_velocity_.resize(position_.size());
+  for (std::size_t i = 0; i < free_velocity_.size(); ++i)
+    free_velocity_[i].w = masses[i] > 0 && std::isfinite(masses[i]) ? 1 / masses[i] : 0;
+}
+
+void Boundary::set_free_velocity(std::span<const double> velocity) noexcept {
+  for (std::size_t i = 0; i < free_velocity_.size(); ++i)
+    free_velocity_[i] = row({velocity[3 * i], velocity[3 * i + 1], velocity[3 * i + 2]}, free_velocity_[i].w);
+}
+
 void Boundary::clear_reactions() noexcept {
   std::ranges::fill(reaction_, Row{});
 }

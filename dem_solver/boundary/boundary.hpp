@@ -53,6 +53,13 @@ class Boundary {
   void set_velocity(Index part, const Triple<double>& velocity);
   void drift(double time) noexcept;
 
+  /// The boundary as free nodes, for implicit contact: the mass behind each (kg; 0 or infinite: it moves as
+  /// it is told), and from step to step the velocity (m/s, 3 a node) it would have half a step from now
+  /// without contact.
+  void set_node_masses(std::span<const double> masses);
+  void set_free_velocity(std::span<const double> velocity) noexcept;
+  std::span<const Row> free_velocity() const noexcept { return free_velocity_; }  ///< w: inverse mass
+
   void clear_reactions() noexcept;
   /// Sets a contact's reaction -weights x force on the nodes of a feature.
   void react(const Feature& feature, const Weights& weights, const Triple<double>& force_on_sphere) noexcept;
@@ -79,7 +86,8 @@ class Boundary {
   std::vector<std::string> part_names_;
   std::vector<Index> part_of_node_;
   std::vector<Row> reference_, position_, velocity_, reaction_;
-  std::vector<Index> drifting_;  ///< nodes of prescribed velocity
+  std::vector<Index> drifting_;     ///< nodes of prescribed velocity
+  std::vector<Row> free_velocity_;  ///< w: inverse mass; empty where contact is explicit
 };
 
 }  // namespace talus::dem

@@ -12,7 +12,7 @@ namespace talus::dem {
 /// An accepted contact of a sphere with the boundary.
 struct BoundaryContact {
   Row force;        ///< N; on the sphere at the last evaluation
-  Row normal;       ///< unit vector to the sphere's centre
+  Row normal;       ///< unit vector to the sphere's centre; w: m, distance of the feature from it
   Weights weights;  ///< of the feature's nodes at the contact point
   Index feature = -1;
   Index part = -1;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "dem_solver/boundary/touching_features.hpp"
+#include "dem_solver/contact/implicit_contact.hpp"
 #include "dem_solver/contact/memory.hpp"
 #include "dem_solver/contact/rigid_contact.hpp"
 
@@ -28,6 +29,7 @@ class BoundaryContacts {
     for (Scratch& s : scratch_) s.reserve(list.most_candidates());
   }
 
+  /// Contacts with a boundary that moves as it is told, whatever acts on it.
   void evaluate(const Context& context) noexcept {
     const auto count = static_cast<Index>(context.list.spheres().size());
     const Index tasks = (count + chunk - 1) / chunk;
@@ -38,6 +40,25 @@ class BoundaryContacts {
         evaluate_sphere(context, k, scratch_[task]);
     }
     collect_reactions(context);
+  }
+
+  /// Contacts with a boundary of nodes that the forces move within the step (ImplicitVelocities). One thread:
+  /// each contact sees what those before it did.
+  /// @return the sweeps that were needed; most_sweeps + 1: not converged
+  int evaluate_implicitly(const Context& context, const ImplicitContact& implicit) noexcept {
+    const auto spheres = static_cast<Index>(context.list.spheres().size());
+    for (Scratch& s : scratch_) s.work = {};
+    if (scratch_.empty()) return 0;
+    for (Index k = 0; k < spheres; ++k) find_contacts(context, k, scratch_[0]);
+    system_.gather_bodies(context.spheres, context.list.spheres(), context.boundary, implicit, context.step);
+    for_each_contact(context, [&](Index k, Index slot) { add_to_system(context, k, slot); });
+    const int sweeps = system_.solve(context.step, implicit.control);
+    std::size_t next = 0;
+    for_each_contact(context, [&](Index k, Index slot) {
+      evaluate_contact(context, k, slot, system_.velocity_gain(next++), scratch_[0].work);
+    });
+    collect_reactions(context);
+    return sweeps;
   }
 
   ContactWork last_work() const noexcept requires Law::has_ledger {
@@ -80,6 +101,14 @@ class BoundaryContacts {
   };
 
   void evaluate_sphere(const Context& context, Index k, Scratch& scratch) noexcept {
+    find_contacts(context, k, scratch);
+    const Index begin = context.list.first()[k];
+    for (Index slot = begin; slot < begin + context.list.count()[k]; ++slot)
+      evaluate_contact(context, k, slot, {}, scratch.work);
+  }
+
+  /// The sphere's contacts at t_n, in its slots, with the memory of those they continue.
+  void find_contacts(const Context& context, Index k, Scratch& scratch) noexcept {
     const Index begin = context.list.first()[k], end = context.list.first()[k + 1],
                 i = context.list.spheres()[k];
     Index& count = context.list.count()[k];
@@ -93,15 +122,34 @@ class BoundaryContacts {
     Index slot = begin;
     for (const FeatureTouch& touch : scratch.touches) {
       const Index part = context.boundary.features()[touch.feature].part;
-      OldContact contact = continued(scratch.old, touch.normal, part);
-      evaluate_contact(context, i, touch, contact, scratch.work);
-      context.list.contacts()[slot] = contact.contact;
-      remember(slot++, contact.memory);
+      const OldContact old = continued(scratch.old, touch.normal, part);
+      context.list.contacts()[slot] = {old.contact.force, row(touch.normal, touch.distance), touch.weights,
+                                       touch.feature, part};
+      remember(slot++, old.memory);
     }
     count = slot - begin;
     if constexpr (Law::has_ledger)
       for (OldContact& ended : scratch.old)
         if (!ended.continued) end_contact(context, i, ended, scratch.work);
+  }
+
+  template <class Visit>
+  static void for_each_contact(const Context& context, const Visit& visit) noexcept {
+    for (std::size_t k = 0; k < context.list.spheres().size(); ++k)
+      for (Index c = 0; c < context.list.count()[k]; ++c)
+        visit(static_cast<Index>(k), context.list.first()[k] + c);
+  }
+
+  void add_to_system(const Context& context, Index k, Index slot) noexcept {
+    const Index i = context.list.spheres()[k];
+    const BoundaryContact& contact = context.list.contacts()[slot];
+    const RigidTouch touch = rigid_touch(context, i, contact);
+    ImplicitVelocities::Contact unknown =
+        springs_at_rest<Law>(context.spheres, touch, recall(slot), triple<double>(contact.force));
+    unknown.sphere = k;
+    unknown.nodes = context.boundary.features()[contact.feature].nodes;
+    unknown.weights = {contact.weights.a, contact.weights.b, contact.weights.c};
+    system_.add(unknown, relative_velocity<Law>(context.spheres, touch));
   }
 
   /// The sphere's contact of the last step that this one continues: the same part's, with the nearest normal;
@@ -121,45 +169,53 @@ class BoundaryContacts {
     return *best;
   }
 
-  void evaluate_contact(const Context& context, Index i, const FeatureTouch& touch, OldContact& contact,
+  void evaluate_contact(const Context& context, Index k, Index slot, const Triple<double>& velocity_gain,
                         ContactWork& work) noexcept {
-    const Feature& feature = context.boundary.features()[touch.feature];
+    BoundaryContact& contact = context.list.contacts()[slot];
+    Memory memory = recall(slot);
+    evaluate(context, context.list.spheres()[k], contact, velocity_gain, memory, work);
+    remember(slot, memory);
+  }
+
+  static RigidTouch rigid_touch(const Context& context, Index i, const BoundaryContact& contact) noexcept {
+    const Feature& feature = context.boundary.features()[contact.feature];
     const double radius = context.spheres.position[i].w, wire = feature.wire_radius;
-    const Triple<double> velocity = context.boundary.velocity_at(feature, touch.weights);
-    const RigidTouch rigid{
-        .sphere = i,
-        .normal = touch.normal,
-        .overlap = radius - touch.distance,
-        // A thin wire presses deeper than a flat face: R* of crossed cylinders, sqrt(R R r/(R + r)).
-        .reduced_radius = wire > 0 ? std::sqrt(radius * radius * wire / (radius + wire)) : radius,
-        .partner_velocity = velocity,
-        .parameters = &context.table(context.spheres.material[i], feature.material)};
+    return {.sphere = i,
+            .normal = triple<double>(contact.normal),
+            .overlap = radius - contact.normal.w,
+            // A thin wire presses deeper than a flat face: R* of crossed cylinders, sqrt(R R r/(R + r)).
+            .reduced_radius = wire > 0 ? std::sqrt(radius * radius * wire / (radius + wire)) : radius,
+            .partner_velocity = context.boundary.velocity_at(feature, contact.weights),
+            .velocity_gain = {},
+            .parameters = &context.table(context.spheres.material[i], feature.material)};
+  }
+
+  static void evaluate(const Context& context, Index i, BoundaryContact& contact,
+                       const Triple<double>& velocity_gain, Memory& memory, ContactWork& work) noexcept {
+    RigidTouch touch = rigid_touch(context, i, contact);
+    touch.velocity_gain = velocity_gain;
     const Triple<double> force =
-        evaluate_rigid_contact<Law>(context.spheres, rigid, context.step, contact.memory, work);
+        evaluate_rigid_contact<Law>(context.spheres, touch, context.step, memory, work);
     if constexpr (Law::has_ledger)
-      work.boundary += 0.5 * context.step * dot(triple<double>(contact.contact.force) + force, velocity);
-    contact.contact = {row(force), row(touch.normal), touch.weights, touch.feature, feature.part};
+      work.boundary +=
+          0.5 * context.step * dot(triple<double>(contact.force) + force, touch.partner_velocity);
+    contact.force = row(force);
   }
 
   /// The last half step's work of a contact that is gone: zero force now, at the same place.
   void end_contact(const Context& context, Index i, OldContact& ended, ContactWork& work) noexcept {
-    const BoundaryContact& last = ended.contact;
-    FeatureTouch apart{.distance = context.spheres.position[i].w,
-                       .normal = triple<double>(last.normal),
-                       .weights = last.weights,
-                       .feature = last.feature};
-    evaluate_contact(context, i, apart, ended, work);
+    ended.contact.normal.w = context.spheres.position[i].w;
+    evaluate(context, i, ended.contact, {}, ended.memory, work);
   }
 
   /// One after the other, so that a node's reactions add up in the same order for any number of threads.
   static void collect_reactions(const Context& context) noexcept {
     context.boundary.clear_reactions();
-    for (std::size_t k = 0; k < context.list.spheres().size(); ++k)
-      for (Index c = 0; c < context.list.count()[k]; ++c) {
-        const BoundaryContact& contact = context.list.contacts()[context.list.first()[k] + c];
-        context.boundary.react(context.boundary.features()[contact.feature], contact.weights,
-                               triple<double>(contact.force));
-      }
+    for_each_contact(context, [&](Index, Index slot) {
+      const BoundaryContact& contact = context.list.contacts()[slot];
+      context.boundary.react(context.boundary.features()[contact.feature], contact.weights,
+                             triple<double>(contact.force));
+    });
   }
 
   Memory recall(Index slot) noexcept {
@@ -174,6 +230,7 @@ class BoundaryContacts {
 
   [[no_unique_address]] ContactMemory<Law> memory_;
   std::vector<Scratch> scratch_;  ///< one a task
+  ImplicitSystem system_;         ///< empty where contacts are explicit
 };
 
 }  // namespace talus::dem

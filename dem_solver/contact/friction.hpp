@@ -42,25 +42,37 @@ template <class Coefficient>
 struct CoulombFriction {
   static constexpr int memory_rows = 1;
 
+  /// The spring of the last step, turned and unloaded, before it is stretched.
+  template <class Real>
+  TALUS_INLINE static Triple<Real> spring_at_start(const Triple<Real>& n, Real kt,
+                                                   const Quad<Real>& memory) noexcept {
+    const Real none{}, tiny = none + 1e-300;
+    const Triple<Real> old = triple(memory);
+    const Triple<Real> turned = old - dot(old, n) * n;
+    const Real kept_length = square_root(dot(old, old) / larger(dot(turned, turned), tiny));
+    const Real unloaded = kt < memory.w ? kt / memory.w : none + 1.0;
+    return (kept_length * unloaded) * turned;
+  }
+
+  template <class Real>
+  TALUS_INLINE static Real limit(const Triple<Real>& sliding, Real normal_force,
+                                 const ContactParameters<Real>& p) noexcept {
+    return Coefficient::coefficient(sliding, p) * normal_force;
+  }
+
   template <class Real>
   TALUS_INLINE static Triple<Real> force(const Touch<Real>& touch, const NormalForce<Real>& normal,
                                          const ContactParameters<Real>& p, double step,
                                          Quad<Real>& memory) noexcept {
     const Real none{}, tiny = none + 1e-300;
-    const Triple<Real>& n = touch.normal;
-    const Triple<Real> old = triple(memory);
-    const Triple<Real> turned = old - dot(old, n) * n;
-    const Real kept_length = square_root(dot(old, old) / larger(dot(turned, turned), tiny));
     const Real kt = normal.tangential_stiffness;
-    const Real unloaded = kt < memory.w ? kt / memory.w : none + 1.0;
-
-    const Triple<Real> vt = touch.velocity - dot(touch.velocity, n) * n;
-    const Triple<Real> spring = (kept_length * unloaded) * turned - (kt * step) * vt;
+    const Triple<Real> vt = touch.velocity - dot(touch.velocity, touch.normal) * touch.normal;
+    const Triple<Real> spring = spring_at_start(touch.normal, kt, memory) - (kt * step) * vt;
     const Triple<Real> wanted = spring - normal.tangential_damping * vt;
-    const Real limit = Coefficient::coefficient(vt, p) * normal.total;
+    const Real most = limit(vt, normal.total, p);
     const Real size = square_root(dot(wanted, wanted));
-    const auto slides = size > limit;
-    const Triple<Real> sliding = (limit / larger(size, tiny)) * wanted;
+    const auto slides = size > most;
+    const Triple<Real> sliding = (most / larger(size, tiny)) * wanted;
     memory = quad(select(slides, sliding, spring), kt);
     return select(slides, sliding, wanted);
   }

@@ -29,6 +29,7 @@ template <class NormalTerm, class FrictionTerm, class RollingTerm, class LedgerT
 struct ContactLaw {
   static_assert(NormalLaw<NormalTerm>);
   using Normal = NormalTerm;
+  using Friction = FrictionTerm;
   static constexpr bool has_friction = !std::same_as<FrictionTerm, NoTerm>;
   static constexpr bool has_rolling = !std::same_as<RollingTerm, NoTerm>;
   static constexpr bool has_ledger = !std::same_as<LedgerTerm, NoTerm>;
@@ -92,10 +93,10 @@ struct ContactLaw {
     Quad<Real>& energies = memory[ledger_row + 1];
     const Real damping_force = normal.total - normal.elastic;
     ContactLoss<Real> loss;
-    loss.damping = -half * (forces.w + damping_force) * dot(touch.velocity, touch.normal);
+    loss.damping = -half * (forces.w + damping_force) * dot(touch.travelled, touch.normal);
     Real held{};
     if constexpr (has_friction) {
-      const Triple<Real> vt = touch.velocity - dot(touch.velocity, touch.normal) * touch.normal;
+      const Triple<Real> vt = touch.travelled - dot(touch.travelled, touch.normal) * touch.normal;
       const Real rolling_power = has_rolling ? dot(rolling_torque, touch.spin) : Real{};
       held = FrictionTerm::template energy<Real>(memory[0]);
       loss.friction =

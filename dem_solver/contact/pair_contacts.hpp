@@ -148,6 +148,7 @@ class PairContacts {
       touch.velocity = touch.velocity - cross(arm_a * triple(wa) + arm_b * triple(wb), touch.normal);
       touch.spin = triple(wa) - triple(wb);
     }
+    if constexpr (Law::has_ledger) touch.travelled = touch.velocity;
     if constexpr (Law::has_rolling) {
       const Lanes ia = 1.4 * va.w * pa.w * pa.w,
                   ib = 1.4 * vb.w * pb.w * pb.w;  // 7/5 m R^2, about the contact point

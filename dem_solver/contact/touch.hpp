@@ -14,11 +14,12 @@ struct NoTerm {
 /// The contact of a sphere ("first") with a partner, at the time t_n of the force evaluation.
 template <class Real>
 struct Touch {
-  Triple<Real> normal;  ///< unit vector from the partner to the first sphere
-  Real overlap{};       ///< m; > 0 while touching
-  Triple<Real>
-      velocity;       ///< m/s; of the first relative to the partner, at the contact point, at t_n - step/2
-  Triple<Real> spin;  ///< rad/s; of the first relative to the partner
+  Triple<Real> normal;     ///< unit vector from the partner to the first sphere
+  Real overlap{};          ///< m; > 0 while touching
+  Triple<Real> velocity;   ///< m/s; of the first relative to the partner, at the contact point, as the
+                           ///< dashpots see it: at t_n - step/2, implicit contacts at t_n + step/2
+  Triple<Real> travelled;  ///< m/s; the same over the step behind t_n; filled for laws with a ledger only
+  Triple<Real> spin;       ///< rad/s; of the first relative to the partner
   Real reduced_radius{};   ///< m; R*
   Real reduced_mass{};     ///< kg; m*
   Real reduced_inertia{};  ///< kg m^2; about the contact point; filled for laws with rolling resistance only
