@@ -181,10 +181,11 @@ void ChannelParticipant::map_arrays() {
   const std::uint64_t values = 3 * surface_nodes_;
   for (std::size_t i = 0; i < array_count; ++i) {
     const auto name = static_cast<ArrayName>(i);
-    const bool boundary_end = name == ArrayName::end_displacement || name == ArrayName::end_velocity;
+    const bool may_be_absent = name == ArrayName::end_displacement || name == ArrayName::end_velocity ||
+                               name == ArrayName::free_velocity;
     const ArraySlot& slot = channel_.arrays[i];
     const std::uint64_t expected = name == ArrayName::outputs ? output_arrays_.size() : values;
-    arrays_[i] = checked_array(data, slot, boundary_end && slot.count == 0 ? 0 : expected);
+    arrays_[i] = checked_array(data, slot, may_be_absent && slot.count == 0 ? 0 : expected);
   }
 }
 
@@ -197,7 +198,8 @@ StructureFields ChannelParticipant::structure_fields() {
   if (stage_ < Stage::idle) throw core::UsageError("interface fields exist from the first next() on");
   return {.force = array(ArrayName::force),
           .displacement = array(ArrayName::displacement),
-          .velocity = array(ArrayName::velocity)};
+          .velocity = array(ArrayName::velocity),
+          .free_velocity = array(ArrayName::free_velocity)};
 }
 
 ParticleFields ChannelParticipant::particle_fields() {
@@ -206,6 +208,7 @@ ParticleFields ChannelParticipant::particle_fields() {
           .start_velocity = array(ArrayName::velocity),
           .end_displacement = array(ArrayName::end_displacement),
           .end_velocity = array(ArrayName::end_velocity),
+          .free_velocity = array(ArrayName::free_velocity),
           .force = array(ArrayName::force)};
 }
 

@@ -68,6 +68,8 @@ struct Declaration {
   double step = 0;      ///< s; its own step inside a window; 0: one step a window, whatever its length
   bool insists_on_step =
       false;  ///< the scene allows a step above a stability limit; else the coupler refuses it before time 0
+  bool free_velocity = false;  ///< structure: it can fill StructureFields::free_velocity; particles: they
+                               ///< need it
   std::vector<StepLimit> limits{};
   std::vector<Effect> effects{};
   core::OutputDescription outputs{};
@@ -80,6 +82,8 @@ struct StructureFields {
   std::span<const double> force;   ///< N; mean over the window, set on Ω_S
   std::span<double> displacement;  ///< m; at the window's end
   std::span<double> velocity;      ///< m/s; at the window's end (explicit leapfrog: half a step before)
+  std::span<double> free_velocity;  ///< m/s; a step after `velocity`, if no interface force acted in between;
+                                    ///< empty where the particles do not need it
 };
 /// The boundary is given at both ends of the window only to a participant that takes several steps in it; one
 /// that takes a single step evaluates its forces at the window's start, and its two end arrays are empty
@@ -90,6 +94,8 @@ struct ParticleFields {
   std::span<const double>
       end_displacement;                  ///< m; predicted or iterated for the window's end; empty: not needed
   std::span<const double> end_velocity;  ///< m/s; likewise
+  std::span<const double> free_velocity;  ///< m/s; the boundary's a step after start_velocity if nothing
+                                          ///< touched it; empty where it was not asked for
   std::span<double> force;               ///< N; that Ω_D receives, mean over the window
 };
 

@@ -175,6 +175,7 @@ Bytes encode(const Declaration& declaration) {
   return cbor({{"program", declaration.program},
                {"step", declaration.step},
                {"insists_on_step", declaration.insists_on_step},
+               {"free_velocity", declaration.free_velocity},
                {"limits", limits},
                {"effects", effects},
                {"outputs", to_json(declaration.outputs)}});
@@ -186,6 +187,7 @@ Declaration decode_declaration(ByteView bytes) {
     Declaration declaration{.program = j.at("program"),
                             .step = j.at("step"),
                             .insists_on_step = j.at("insists_on_step"),
+                            .free_velocity = j.at("free_velocity"),
                             .limits = {},
                             .effects = {},
                             .outputs = outputs_from(j.at("outputs"))};

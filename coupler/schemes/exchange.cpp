@@ -29,7 +29,8 @@ Exchange::Side Exchange::side(Session& session, Role role) {
           .displacement = peer.array(ArrayName::displacement),
           .velocity = peer.array(ArrayName::velocity),
           .end_displacement = peer.array(ArrayName::end_displacement),
-          .end_velocity = peer.array(ArrayName::end_velocity)};
+          .end_velocity = peer.array(ArrayName::end_velocity),
+          .free_velocity = peer.array(ArrayName::free_velocity)};
 }
 
 Exchange::Exchange(Session& session, const mesh::Mapping& mapping)
@@ -58,6 +59,8 @@ void Exchange::forces_to_structure() {
 void Exchange::motion_to_boundary() {
   mapping_.to_boundary(structure_.displacement, particles_.displacement);
   mapping_.to_boundary(structure_.velocity, particles_.velocity);
+  if (!structure_.free_velocity.empty())
+    mapping_.to_boundary(structure_.free_velocity, particles_.free_velocity);
   structure_work_.end(structure_.displacement);
   boundary_work_.end(particles_.end_displacement.empty() ? particles_.displacement
                                                          : particles_.end_displacement);

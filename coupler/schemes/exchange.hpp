@@ -46,7 +46,7 @@ class Exchange {
  private:
   struct Side {
     Peer& peer;
-    std::span<double> force, displacement, velocity, end_displacement, end_velocity;
+    std::span<double> force, displacement, velocity, end_displacement, end_velocity, free_velocity;
   };
   static Side side(Session& session, Role role);
 

@@ -1,5 +1,7 @@
 #include "coupler/session/introduction.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <tuple>
 
@@ -102,6 +104,16 @@ std::optional<Interface> introduce(Session& session, const std::optional<Interfa
   return interface;
 }
 
+bool needs_free_velocity(Session& session) {
+  const Peer *structure = session.find(Role::structure), *particles = session.find(Role::particles);
+  if (!structure || !particles || !particles->declaration().free_velocity) return false;
+  if (structure->declaration().free_velocity) return true;
+  throw core::ConfigError(
+      fmt::format("particles.implicit_contact needs a structure that says how it would move without contact; "
+                  "{} does not",
+                  structure->declaration().program));
+}
+
 bool takes_several_steps(const Declaration& declaration, double window_length) {
   constexpr double round_off = 1e-9;
   return declaration.step > 0 && declaration.step < window_length * (1 - round_off);
@@ -116,6 +128,7 @@ void lay_out_arrays(Session& session, const std::optional<Interface>& interface,
     for (const auto name : {ArrayName::force, ArrayName::displacement, ArrayName::velocity}) {
       Session::request_array(*peer, name, values);
     }
+    if (needs_free_velocity(session)) Session::request_array(*peer, ArrayName::free_velocity, values);
     if (is_structure || !takes_several_steps(peer->declaration(), window_length)) continue;
     Session::request_array(*peer, ArrayName::end_displacement, values);
     Session::request_array(*peer, ArrayName::end_velocity, values);
