@@ -76,8 +76,10 @@ core::ResultWriter::Options result_options(const PreparedRun& run, const RunRequ
 RunStatus compute(PreparedRun& run, Assembled& parts, Reporter& reporter, const Span& span) {
   RunStatus status{};
   if (parts.exchange) {
-    status = run_windows(reporter, span,
-                         [&](const Window& window) { SerialExplicit{}.compute(*parts.exchange, window); });
+    status = run_windows(reporter, span, [&](const Window& window) {
+      if (window.index == 0) parts.exchange->start();
+      SerialExplicit{}.compute(*parts.exchange, window);
+    });
   } else {
     status =
         run_windows(reporter, span, [&](const Window& window) { Uncoupled{}.compute(*run.session, window); });

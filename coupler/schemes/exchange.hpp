@@ -26,6 +26,9 @@ class Exchange {
   /// @pre the session's arrays are laid out; `mapping` lives as long as this
   Exchange(Session& session, const mesh::Mapping& mapping);
 
+  /// Before the first window, once the structure has answered to something: its motion at time 0.
+  void start() { motion_to_boundary(); }
+
   // The participants' parts of a window; each returns when the answer is there.
   void advance_particles(const Window& window, int iteration = 0);
   void advance_structure(const Window& window, int iteration = 0);

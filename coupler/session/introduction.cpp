@@ -104,9 +104,15 @@ std::optional<Interface> introduce(Session& session, const std::optional<Interfa
   return interface;
 }
 
-bool needs_free_velocity(Session& session) {
+bool needs_free_velocity(Session& session, double window_length) {
   const Peer *structure = session.find(Role::structure), *particles = session.find(Role::particles);
   if (!structure || !particles || !particles->declaration().free_velocity) return false;
+  for (const Peer* peer : {structure, particles})
+    if (takes_several_steps(peer->declaration(), window_length))
+      throw core::ConfigError(
+          fmt::format("particles.implicit_contact wants one step a window, but {} takes steps of {:g} s in "
+                      "windows of {:g} s",
+                      peer->declaration().program, peer->declaration().step, window_length));
   if (structure->declaration().free_velocity) return true;
   throw core::ConfigError(
       fmt::format("particles.implicit_contact needs a structure that says how it would move without contact; "
@@ -120,6 +126,7 @@ bool takes_several_steps(const Declaration& declaration, double window_length) {
 }
 
 void lay_out_arrays(Session& session, const std::optional<Interface>& interface, double window_length) {
+  const bool free_velocity = needs_free_velocity(session, window_length);
   for (Peer* peer : session.peers()) {
     Session::request_array(*peer, ArrayName::outputs, peer->output_arrays().size());
     if (!interface) continue;
@@ -128,7 +135,7 @@ void lay_out_arrays(Session& session, const std::optional<Interface>& interface,
     for (const auto name : {ArrayName::force, ArrayName::displacement, ArrayName::velocity}) {
       Session::request_array(*peer, name, values);
     }
-    if (needs_free_velocity(session)) Session::request_array(*peer, ArrayName::free_velocity, values);
+    if (free_velocity) Session::request_array(*peer, ArrayName::free_velocity, values);
     if (is_structure || !takes_several_steps(peer->declaration(), window_length)) continue;
     Session::request_array(*peer, ArrayName::end_displacement, values);
     Session::request_array(*peer, ArrayName::end_velocity, values);

@@ -41,8 +41,8 @@ std::optional<Interface> introduce(Session& session, const std::optional<Interfa
 bool takes_several_steps(const Declaration& declaration, double window_length);
 
 /// Whether the particles ask for the boundary's free velocity.
-/// @throws core::ConfigError where the structure cannot say it
-bool needs_free_velocity(Session& session);
+/// @throws core::ConfigError where the structure cannot say it, or a side takes several steps a window (s)
+bool needs_free_velocity(Session& session, double window_length);
 
 /// Sizes every array of every participant and makes the data block.
 void lay_out_arrays(Session& session, const std::optional<Interface>& interface, double window_length);

@@ -35,6 +35,7 @@ coupler::Declaration declaration_of(const RunScene& scene, const ParticleRun& ru
   declaration.program = "dem_solver " + core::version();
   declaration.step = scene.particles.step.value_or(0);
   declaration.insists_on_step = scene.particles.unstable_step == ParticlesScene::UnstableStep::allowed;
+  declaration.free_velocity = scene.particles.implicit_contact.has_value() && has_interface;
   declaration.outputs = run.output.description();
   for (const ParticleStepLimit& limit : run.limits)
     declaration.limits.push_back({limit.name, limit.seconds, limit.stability, limit.reason});
@@ -94,6 +95,8 @@ class Server {
     for (std::int64_t k = 0; k < steps; ++k) {
       if (!run_.solver.boundary().empty())
         run_.solver.boundary().move(motion, static_cast<double>(k) / static_cast<double>(steps));
+      if (!fields.free_velocity.empty())
+        run_.solver.boundary().set_free_velocity(fields.free_velocity, first_node_);
       run_.solver.step();
       add_reactions(fields.force, 1.0 / static_cast<double>(steps));
     }
@@ -120,6 +123,8 @@ void serve(const core::SceneFile& file, coupler::Participant& participant) {
   const RunScene scene = read_run_scene(file);
   const CoupledBoundary boundary = receive_boundary(scene, participant);
   ParticleRun run(scene, boundary.surface, boundary.node_masses);
+  if (scene.particles.implicit_contact)
+    run.solver.boundary().set_node_masses(boundary.node_masses, boundary.first_node);
   participant.declare(declaration_of(scene, run, !boundary.node_masses.empty()));
   Server(scene, run, participant, boundary.first_node).serve();
 }

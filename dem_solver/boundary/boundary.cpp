@@ -65,15 +65,18 @@ void Boundary::drift(double time) noexcept {
     position_[i] = row(triple<double>(reference_[i]) + time * triple<double>(velocity_[i]));
 }
 
-void Boundary::set_node_masses(std::span<const double> masses) {
-  free_velocity_.resize(position_.size());
-  for (std::size_t i = 0; i < free_velocity_.size(); ++i)
-    free_velocity_[i].w = masses[i] > 0 && std::isfinite(masses[i]) ? 1 / masses[i] : 0;
+void Boundary::set_node_masses(std::span<const double> masses, Index first) {
+  free_velocity_ = velocity_;
+  for (Row& node : free_velocity_) node.w = 0;
+  for (std::size_t i = 0; i < masses.size(); ++i)
+    free_velocity_[first + i].w = masses[i] > 0 ? 1 / masses[i] : 0;
 }
 
-void Boundary::set_free_velocity(std::span<const double> velocity) noexcept {
-  for (std::size_t i = 0; i < free_velocity_.size(); ++i)
-    free_velocity_[i] = row({velocity[3 * i], velocity[3 * i + 1], velocity[3 * i + 2]}, free_velocity_[i].w);
+void Boundary::set_free_velocity(std::span<const double> velocity, Index first) noexcept {
+  for (std::size_t i = 0; i < velocity.size() / 3; ++i) {
+    Row& node = free_velocity_[first + i];
+    node = row({velocity[3 * i], velocity[3 * i + 1], velocity[3 * i + 2]}, node.w);
+  }
 }
 
 void Boundary::clear_reactions() noexcept {

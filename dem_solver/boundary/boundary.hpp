@@ -56,8 +56,9 @@ class Boundary {
   /// The boundary as free nodes, for implicit contact: the mass behind each (kg; 0 or infinite: it moves as
   /// it is told), and from step to step the velocity (m/s, 3 a node) it would have half a step from now
   /// without contact.
-  void set_node_masses(std::span<const double> masses);
-  void set_free_velocity(std::span<const double> velocity) noexcept;
+  /// Both for the nodes from `first` on; those before it move as they are told.
+  void set_node_masses(std::span<const double> masses, Index first);
+  void set_free_velocity(std::span<const double> velocity, Index first) noexcept;
   std::span<const Row> free_velocity() const noexcept { return free_velocity_; }  ///< w: inverse mass
 
   void clear_reactions() noexcept;

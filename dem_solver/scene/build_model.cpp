@@ -151,6 +151,9 @@ ParticleModel build_model(const ParticlesScene& particles, const mesh::Surface& 
   model.pairs = pair_table(particles);
   model.law = law_of(particles, context);
   if (particles.gravity) model.gravity = triple_of(*particles.gravity);
+  if (particles.implicit_contact)
+    model.implicit_contact = {.tolerance = particles.implicit_contact->tolerance,
+                              .most_sweeps = static_cast<int>(particles.implicit_contact->most_sweeps)};
   model.step = context.step;
   model.threads = context.threads;
   return model;

@@ -38,6 +38,8 @@ std::vector<ParticleEffect> effects_of(const ParticlesScene& particles, const Ef
              : context.has_interface       ? "interface"
                                            : "",
              "particles.boundaries and interface are absent"),
+      effect("implicit contact", particles.implicit_contact ? "particles.implicit_contact" : "",
+             "particles.implicit_contact is absent"),
       effect("linear contact law", suffixed(linear, ".linear"), "contacts name `hertz`"),
       effect("friction", suffixed(friction, ".friction"), "no contact names `friction`"),
       effect("rotation", suffixed(friction, ".friction"),

@@ -13,6 +13,15 @@ void describe(core::Fields& fields, SphereScene& sphere) {
                       {.unit = "rad/s", .help = "angular velocity at time 0; needs friction somewhere"});
 }
 
+void describe(core::Fields& fields, ImplicitContactScene& contact) {
+  fields.with_default("tolerance", contact.tolerance,
+                      {.range = {.low = 1e-12, .high = 0.1},
+                       .help = "largest change of a contact force in a sweep, over the largest force"});
+  fields.with_default("most_sweeps", contact.most_sweeps,
+                      {.range = {.low = 1, .high = 100000},
+                       .help = "sweeps after which a step goes on with what it has, counted in the summary"});
+}
+
 void describe(core::Fields& fields, ParticlesScene& particles) {
   fields.optional("solver", particles.solver, {.help = "program that takes this side; absent: dem_solver"});
   fields.optional("gravity", particles.gravity,
@@ -26,6 +35,12 @@ void describe(core::Fields& fields, ParticlesScene& particles) {
              "rigid wires and faces at rest or at constant velocity, by name");
   fields.optional("step", particles.step,
                   {.unit = "s", .range = core::positive, .help = "of the particles; absent: time.step"});
+  fields.section(
+      "implicit_contact", particles.implicit_contact,
+      "contacts with the structure's light nodes act with the velocity at the step's end, which is found "
+      "together with the nodes' own motion; absent: with the velocity half a step ago");
+  fields.rule(!(particles.step && particles.implicit_contact), "step",
+              "contradicts implicit_contact, which takes one step a coupling window");
   fields.choice("unstable_step", particles.unstable_step, {"refused", "allowed"},
                 "what to do with a step above a stability limit");
   fields.with_default("threads", particles.threads,

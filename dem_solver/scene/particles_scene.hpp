@@ -21,6 +21,13 @@ struct SphereScene {
 };
 void describe(core::Fields& fields, SphereScene& sphere);
 
+/// See ImplicitVelocities.
+struct ImplicitContactScene {
+  double tolerance = 1e-4;  ///< largest change of a contact force in a sweep over the largest force
+  std::int64_t most_sweeps = 100;
+};
+void describe(core::Fields& fields, ImplicitContactScene& contact);
+
 template <class T>
 using Named = std::vector<std::pair<std::string, T>>;
 
@@ -33,6 +40,7 @@ struct ParticlesScene {
   Named<PlaneScene> planes;
   Named<BoundaryScene> boundaries;
   std::optional<double> step;  ///< s
+  std::optional<ImplicitContactScene> implicit_contact;
   enum class UnstableStep { refused, allowed } unstable_step = UnstableStep::refused;
   std::int64_t threads = 1;
 };

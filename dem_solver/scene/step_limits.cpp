@@ -139,7 +139,8 @@ class LimitSearch {
       const std::string entity = fmt::format("sphere {} of {:.4g} kg at {:.4g} m/s on a node of {:.4g} kg", i,
                                              sphere.mass, speed, lightest_node_);
       limits_.node_spring.consider(2 * std::sqrt(lightest_node_ / c.stiffness), "2 sqrt(m/k), " + entity);
-      if (c.dashpot > 0) limits_.node_dashpot.consider(2 * lightest_node_ / c.dashpot, "2 m/c, " + entity);
+      if (c.dashpot > 0 && !model_.implicit_contact)
+        limits_.node_dashpot.consider(2 * lightest_node_ / c.dashpot, "2 m/c, " + entity);
     }
   }
 

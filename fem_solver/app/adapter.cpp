@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "coupler/scene/interface_scene.hpp"
 #include "fem_solver/app/structure.hpp"
@@ -22,7 +23,7 @@ std::vector<std::string> interface_parts(const core::SceneFile& file) {
 struct PublishedSurface {
   mesh::Surface surface;
   std::vector<Index> nodes;
-  std::vector<double> masses;  ///< kg
+  std::vector<double> masses;  ///< kg; infinite where the motion is prescribed
 };
 
 const Part& find_part(const Model& model, const std::string& name) {
@@ -59,9 +60,19 @@ void add_cells(const Part& part, const std::vector<Index>& number, mesh::Surface
   run.triangle_end = static_cast<mesh::Index>(surface.triangles.size());
 }
 
+/// Nodes whose motion is prescribed in every direction: no force moves them.
+std::vector<bool> held_nodes(const Model& model) {
+  std::vector<bool> held(static_cast<std::size_t>(model.nodes()), false);
+  for (const auto& support : model.supports)
+    if (support.fixed[0] && support.fixed[1] && support.fixed[2])
+      for (const Index node : support.nodes) held[static_cast<std::size_t>(node)] = true;
+  return held;
+}
+
 PublishedSurface published_surface(const Model& model, const std::vector<std::string>& parts) {
   PublishedSurface published;
   std::vector<Index> number(static_cast<std::size_t>(model.nodes()), -1);
+  const std::vector<bool> held = held_nodes(model);
   for (const auto& name : parts) {
     const Part& part = find_part(model, name);
     for (const Index node : part.nodes) {
@@ -69,7 +80,9 @@ PublishedSurface published_surface(const Model& model, const std::vector<std::st
       if (own >= 0) continue;
       own = static_cast<Index>(published.nodes.size());
       published.nodes.push_back(node);
-      published.masses.push_back(model.node_masses[static_cast<std::size_t>(node)]);
+      published.masses.push_back(held[static_cast<std::size_t>(node)]
+                                     ? std::numeric_limits<double>::infinity()
+                                     : model.node_masses[static_cast<std::size_t>(node)]);
       const Vector3 x = model.position(node);
       published.surface.positions.insert(published.surface.positions.end(), x.begin(), x.end());
     }
@@ -79,41 +92,50 @@ PublishedSurface published_surface(const Model& model, const std::vector<std::st
 }
 
 coupler::Declaration declaration(Structure& structure, const StructuralScene& scene) {
-  coupler::Declaration declared{.program = "fem_solver " + core::version(),
-                                .step = structure.step(),
-                                .limits = {},
-                                .effects = {},
-                                .outputs = structure.output().description()};
+  coupler::Declaration declared{
+      .program = "fem_solver " + core::version(),
+      .step = structure.step(),
+      .free_velocity = !structure.integrator().free_velocity(0, structure.step()).empty(),
+      .limits = {},
+      .effects = {},
+      .outputs = structure.output().description()};
   for (const auto& bound : structure.bounds())
     declared.limits.push_back(
-        {"structure: " + bound.name, bound.seconds, &bound == &structure.bounds().front(), bound.reason});
+        {bound.name, bound.seconds, &bound == &structure.bounds().front(), bound.reason});
   for (const auto& effect : structural_effects(scene.structure))
     declared.effects.push_back({effect.name, effect.present, effect.reason});
   return declared;
 }
 
-/// The interface's part of the state, at its nodes in their order.
-void publish_motion(Structure& structure, const coupler::StructureFields& fields) {
-  const auto& nodes = structure.integrator().interface().nodes;
-  const auto displacement = structure.integrator().displacement(),
-             velocity = structure.integrator().velocity();
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    const auto from = 3 * static_cast<std::size_t>(nodes[i]);
-    for (std::size_t c = 0; c < 3; ++c) {
-      fields.displacement[3 * i + c] = displacement[from + c];
-      fields.velocity[3 * i + c] = velocity[from + c];
-    }
-  }
+/// The present time, and the length of the window to come as far as anybody knows.
+struct Present {
+  double time = 0, next_window = 0;  ///< s
+};
+
+/// The values of the interface's nodes, in their order.
+void gather(const std::vector<Index>& nodes, std::span<const double> from, std::span<double> to) {
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    std::copy_n(&from[3 * static_cast<std::size_t>(nodes[i])], 3, &to[3 * i]);
+}
+
+void publish_motion(Integrator& integrator, const coupler::StructureFields& fields, const Present& present) {
+  const auto& nodes = integrator.interface().nodes;
+  gather(nodes, integrator.displacement(), fields.displacement);
+  gather(nodes, integrator.velocity(), fields.velocity);
+  if (!fields.free_velocity.empty())
+    gather(nodes, integrator.free_velocity(present.time, present.next_window), fields.free_velocity);
 }
 
 void obey(const coupler::Command& command, Structure& structure, coupler::Participant& participant) {
   using coupler::Action;
   Integrator& integrator = structure.integrator();
   const coupler::StructureFields fields = participant.structure_fields();
+  Present present{command.time, command.length};
   switch (command.action) {
     case Action::advance:
       std::ranges::copy(fields.force, integrator.interface().force.begin());
       integrator.advance(command.time, command.length);
+      present.time = command.time + command.length;
       break;
     case Action::save_state:
       return integrator.save();
@@ -130,7 +152,7 @@ void obey(const coupler::Command& command, Structure& structure, coupler::Partic
     case Action::finish:
       return;
   }
-  publish_motion(structure, fields);
+  publish_motion(integrator, fields, present);
 }
 
 void serve(const core::SceneFile& file, coupler::Participant& participant) {

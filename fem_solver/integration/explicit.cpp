@@ -69,31 +69,54 @@ void ExplicitSolver::step(double time, double step) {
 }
 
 void ExplicitSolver::evaluate_forces(double time) noexcept {
-  assembly_.internal_force(state_.displacement, state_.force);
-  if (model_.damping.stiffness > 0) subtract_stiffness_damping();
-  add_external_forces(time);
+  evaluate_own_forces(time, state_.force);
+  for (std::size_t k = 0; k < interface_.nodes.size(); ++k)
+    Vector3::Map(&state_.force[3 * interface_.nodes[k]]) += Vector3::Map(&interface_.force[3 * k]);
 }
 
-void ExplicitSolver::subtract_stiffness_damping() noexcept {
+void ExplicitSolver::evaluate_own_forces(double time, std::span<double> force) noexcept {
+  assembly_.internal_force(state_.displacement, force);
+  if (model_.damping.stiffness > 0) subtract_stiffness_damping(force);
+  add_external_forces(time, force);
+}
+
+// The step evaluates these forces once more: state_.force has to stay that of the last step, which the energy
+// balance reads.
+std::span<const double> ExplicitSolver::free_velocity(double time, double step) {
+  free_velocity_.resize(state_.velocity.size());
+  evaluate_own_forces(time, free_velocity_);
+  const double kick = 0.5 * (state_.previous_step + step), half_damping = 0.5 * model_.damping.mass * kick;
+  for (std::size_t i = 0; i < free_velocity_.size(); ++i)
+    free_velocity_[i] =
+        ((1 - half_damping) * state_.velocity[i] + kick * inverse_mass_[i / 3] * free_velocity_[i]) /
+        (1 + half_damping);
+  for_each_support(model_, [&](const Support& support, std::size_t dof, std::size_t) {
+    const Vector3 target = support.history.at(time + step) * support.displacement;
+    for (std::size_t c = 0; c < 3; ++c)
+      if (support.fixed[c])
+        free_velocity_[dof + c] = (target[static_cast<int>(c)] - state_.displacement[dof + c]) / step;
+  });
+  return free_velocity_;
+}
+
+void ExplicitSolver::subtract_stiffness_damping(std::span<double> force) noexcept {
   assembly_.stiffness_product(state_.displacement, state_.velocity, damping_force_);
-  core::parallel_for(static_cast<std::int64_t>(state_.force.size()), [&](std::int64_t i) {
+  core::parallel_for(static_cast<std::int64_t>(force.size()), [&](std::int64_t i) {
     damping_force_[i] *= model_.damping.stiffness;
-    state_.force[i] -= damping_force_[i];
+    force[i] -= damping_force_[i];
   });
 }
 
-void ExplicitSolver::add_external_forces(double time) noexcept {
+void ExplicitSolver::add_external_forces(double time, std::span<double> force) const noexcept {
   if (model_.gravity) {
     core::parallel_for(model_.nodes(), [&](std::int64_t i) {
-      Vector3::Map(&state_.force[3 * i]) += model_.node_masses[i] * *model_.gravity;
+      Vector3::Map(&force[3 * i]) += model_.node_masses[i] * *model_.gravity;
     });
   }
   for (const auto& load : model_.loads) {
-    const Vector3 force = load.history.at(time) * load.force;
-    for (const Index node : load.nodes) Vector3::Map(&state_.force[3 * node]) += force;
+    const Vector3 applied = load.history.at(time) * load.force;
+    for (const Index node : load.nodes) Vector3::Map(&force[3 * node]) += applied;
   }
-  for (std::size_t k = 0; k < interface_.nodes.size(); ++k)
-    Vector3::Map(&state_.force[3 * interface_.nodes[k]]) += Vector3::Map(&interface_.force[3 * k]);
 }
 
 void ExplicitSolver::impose_supports(double time, double step) noexcept {

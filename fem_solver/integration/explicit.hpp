@@ -62,6 +62,7 @@ class ExplicitSolver final : public Integrator {
   std::span<const double> displacement() const override { return state_.displacement; }
   std::span<const double> velocity() const override { return state_.velocity; }
   std::span<const double> reactions() const override { return state_.reactions; }
+  std::span<const double> free_velocity(double time, double step) override;
   /// The balance at the time of the last force evaluation, one step before the present; before the first
   /// step, at time 0.
   EnergyBalance balance() override;
@@ -76,9 +77,12 @@ class ExplicitSolver final : public Integrator {
   const ExplicitState& state() const { return state_; }
 
  private:
+  /// All forces but the supports'; on the interface those that are set.
   void evaluate_forces(double time) noexcept;
-  void subtract_stiffness_damping() noexcept;
-  void add_external_forces(double time) noexcept;
+  /// Forces of the structure itself and of its loads.
+  void evaluate_own_forces(double time, std::span<double> force) noexcept;
+  void subtract_stiffness_damping(std::span<double> force) noexcept;
+  void add_external_forces(double time, std::span<double> force) const noexcept;
   /// Replaces the force on supported directions by the one that leads to their prescribed position at the
   /// step's end.
   void impose_supports(double time, double step) noexcept;
@@ -102,6 +106,7 @@ class ExplicitSolver final : public Integrator {
   ExplicitState saved_;
   std::vector<double> inverse_mass_;   ///< 1/kg; 0 for a node without mass
   std::vector<double> damping_force_;  ///< N; b K v, only where the scene names stiffness damping
+  std::vector<double> free_velocity_;  ///< m/s; only where somebody asks for it
   core::OrderedSum<> sum_;
 };
 

@@ -35,6 +35,11 @@ class Integrator {
 
   virtual std::span<const double> displacement() const = 0;  ///< m; at the present time, 3 a node
   virtual std::span<const double> velocity() const = 0;      ///< m/s; leapfrog: half a step before, 3 a node
+  /// The velocity (m/s, 3 a node) that a step of `step` (s) from the present `time` (s) would lead to if no
+  /// interface force acted in it; empty where the integrator cannot say it.
+  virtual std::span<const double> free_velocity([[maybe_unused]] double time, [[maybe_unused]] double step) {
+    return {};
+  }
   /// Forces of the supports on the structure (N), 3 for every node of every support in turn.
   virtual std::span<const double> reactions() const = 0;
   virtual EnergyBalance balance() = 0;
