@@ -75,7 +75,8 @@ TEST_CASE("A dashpot far above the light node's limit stops the approach and nev
     const double after = ImplicitVelocities::relative_velocity(contacts[0], bodies).z;
     // u = u0 - dt g c u, solved for u
     const double expected = -scene.approach / (1 + damping * step * scene.inverse_mass());
-    CHECK(after == Approx(expected).epsilon(1e-12));
+    // Round-off of the 8 m/s that cancel.
+    CHECK(after == Approx(expected).epsilon(1e-12).margin(1e-14));
     CHECK(after <= 0);
   }
 }
