@@ -28,14 +28,17 @@ struct FallingCoefficient {
 ///
 ///     turn:     Fe <- (Fe - (Fe.n) n), length kept             the spring follows the contact plane
 ///     unload:   Fe <- Fe kt/kt_old  where kt < kt_old          so that unloading gives no energy; loading
-///     leaves Fe stretch:  Fe <- Fe - kt vt step Ft = Fe - ct vt;  where |Ft| > mu Fn: Ft <- mu Fn Ft/|Ft|
-///     and Fe <- Ft energy = Fe^2/(2 kt)
+///                                                              leaves Fe
+///     stretch:  Fe <- Fe - kt vt step                          cut to the length mu Fn
+///     Ft = (Fe before it is cut) - ct vt                       cut to the length mu Fn
+///     energy = Fe^2/(2 kt)
 ///
 ///     Fe     · spring force on the first sphere   · N    · memory x y z
 ///     kt_old · its stiffness at the last step     · N/m  · memory w
 ///     vt     · sliding velocity at the contact    · m/s  · of the first over the partner
 ///     ct     · dashpot, 2 g sqrt(m* kt)           · N s/m
-/// While it slides the dashpot is off: the spring and the slider alone carry Coulomb's force.
+/// The spring never holds more than its own stretch has put into it: where only spring and dashpot together
+/// reach Coulomb's limit, the force is cut and the spring is not loaded in its place.
 /// Tests: verification/particles "friction", unit "Unloading a tangential spring returns no more energy than
 /// it was given".
 template <class Coefficient>
@@ -54,6 +57,14 @@ struct CoulombFriction {
     return (kept_length * unloaded) * turned;
   }
 
+  /// The vector, cut to a length where it is longer.
+  template <class Real>
+  TALUS_INLINE static Triple<Real> shortened(const Triple<Real>& vector, Real most) noexcept {
+    const Real none{}, tiny = none + 1e-300;
+    const Real size = square_root(dot(vector, vector));
+    return select(size > most, (most / larger(size, tiny)) * vector, vector);
+  }
+
   template <class Real>
   TALUS_INLINE static Real limit(const Triple<Real>& sliding, Real normal_force,
                                  const ContactParameters<Real>& p) noexcept {
@@ -64,17 +75,13 @@ struct CoulombFriction {
   TALUS_INLINE static Triple<Real> force(const Touch<Real>& touch, const NormalForce<Real>& normal,
                                          const ContactParameters<Real>& p, double step,
                                          Quad<Real>& memory) noexcept {
-    const Real none{}, tiny = none + 1e-300;
     const Real kt = normal.tangential_stiffness;
     const Triple<Real> vt = touch.velocity - dot(touch.velocity, touch.normal) * touch.normal;
     const Triple<Real> spring = spring_at_start(touch.normal, kt, memory) - (kt * step) * vt;
     const Triple<Real> wanted = spring - normal.tangential_damping * vt;
     const Real most = limit(vt, normal.total, p);
-    const Real size = square_root(dot(wanted, wanted));
-    const auto slides = size > most;
-    const Triple<Real> sliding = (most / larger(size, tiny)) * wanted;
-    memory = quad(select(slides, sliding, spring), kt);
-    return select(slides, sliding, wanted);
+    memory = quad(shortened(spring, most), kt);
+    return shortened(wanted, most);
   }
 
   /// J; of the spring as it was left in the memory.
