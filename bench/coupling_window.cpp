@@ -111,7 +111,7 @@ void measure(int nodes) {
   session.wait_joined();
   const auto interface = coupler::introduce(session, coupler::identical_surfaces());
   coupler::lay_out_arrays(session, interface, window_length);
-  coupler::Exchange exchange(session, interface->tie.mapping);
+  coupler::Exchange exchange(session, interface->tie.mapping, window_length);
 
   std::vector<double> full, floor;
   for (int repetition = 0; repetition <= repetitions; ++repetition) {  // the first one warms up

@@ -62,7 +62,8 @@ PreparedRun prepare(const PrepareOptions& options) {
   std::optional<InterfacePlan> plan;
   if (run.scene.interface) plan = plan_of(*run.scene.interface);
   run.interface = introduce(*run.session, plan, std::move(complaints));
-  lay_out_arrays(*run.session, run.interface, run.window_length());
+  lay_out_arrays(*run.session, run.interface, run.window_length(),
+                 run.scene.coupling.is_implicit() ? BoundaryEnd::always : BoundaryEnd::for_several_steps);
   run.limits = check_limits(*run.session, run.window_length());
   return run;
 }

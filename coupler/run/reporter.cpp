@@ -28,16 +28,11 @@ void Reporter::last(std::int64_t window) {
 
 void Reporter::write(std::int64_t window, bool frame) {
   const double time = static_cast<double>(window) * plan_.span.window_length;
-  const auto peers = session_.peers();
-  // Both fill their values at the same time; neither needs the other's.
-  for (Peer* peer : peers) {
-    session_.post(*peer, {.action = Action::report,
-                          .fields = frame,
-                          .window = window,
-                          .time = time,
-                          .length = plan_.span.window_length});
-  }
-  for (Peer* peer : peers) session_.wait_answer(*peer);
+  session_.ask_all({.action = Action::report,
+                    .fields = frame,
+                    .window = window,
+                    .time = time,
+                    .length = plan_.span.window_length});
   results_.write_row(time);
   if (frame) results_.write_fields(time);
   plan_.rows.done(window);

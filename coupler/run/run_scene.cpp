@@ -3,15 +3,16 @@
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 #include "core/output/result_writer.hpp"
 #include "core/program/log.hpp"
 #include "core/program/stop.hpp"
+#include "coupler/run/choose_scheme.hpp"
 #include "coupler/run/prepared_run.hpp"
 #include "coupler/run/reporter.hpp"
 #include "coupler/run/sources.hpp"
 #include "coupler/run/summary.hpp"
-#include "coupler/schemes/serial_explicit.hpp"
 #include "coupler/schemes/uncoupled.hpp"
 
 namespace talus::coupler {
@@ -53,7 +54,7 @@ struct Assembled {
     for (Peer* peer : run.session->peers()) peers.emplace_back(*peer);
     for (const auto& peer : peers) sources.push_back(&peer);
     if (!run.interface) return;
-    exchange.emplace(*run.session, run.interface->tie.mapping);
+    exchange.emplace(*run.session, run.interface->tie.mapping, run.window_length());
     sources.push_back(&interface.emplace(*run.interface, *run.session->find(Role::particles), *exchange));
   }
   std::vector<PeerSource> peers;
@@ -73,13 +74,28 @@ core::ResultWriter::Options result_options(const PreparedRun& run, const RunRequ
           .frame_capacity = plan.frames ? plan.frames->count(plan.span.windows()) : 0};
 }
 
-RunStatus compute(PreparedRun& run, Assembled& parts, Reporter& reporter, const Span& span) {
+/// What a strong scheme's iterations cost goes into the summary; the others have none.
+template <class Scheme>
+void add_tally(nlohmann::json& summary, const Scheme& scheme) {
+  if constexpr (requires { scheme.tally(); }) add_iterations(summary, scheme.tally());
+}
+
+double mean_of(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+RunStatus compute(PreparedRun& run, Assembled& parts, Reporter& reporter, const Span& span,
+                  nlohmann::json& summary) {
   RunStatus status{};
   if (parts.exchange) {
-    status = run_windows(reporter, span, [&](const Window& window) {
-      if (window.index == 0) parts.exchange->start();
-      SerialExplicit{}.compute(*parts.exchange, window);
-    });
+    std::visit(SchemeChoice(*parts.exchange, mean_of(run.interface->boundary_masses),
+                            [&](auto& scheme) {
+                              status = run_windows(reporter, span, [&](const Window& window) {
+                                scheme.compute(*parts.exchange, window);
+                              });
+                              add_tally(summary, scheme);
+                            }),
+               run.scene.coupling.scheme);
   } else {
     status =
         run_windows(reporter, span, [&](const Window& window) { Uncoupled{}.compute(*run.session, window); });
@@ -98,7 +114,7 @@ core::ExitCode run_prepared(PreparedRun& run, const RunRequest& request) {
   add_facts(results.summary(), run);
   try {
     Reporter reporter(*run.session, results, plan, request.options.progress);
-    const RunStatus status = compute(run, parts, reporter, plan.span);
+    const RunStatus status = compute(run, parts, reporter, plan.span, results.summary());
     results.finish(status);
     core::log_info(closing_words(results.folder()));
     return status == RunStatus::finished ? core::ExitCode::success : core::ExitCode::interrupted;

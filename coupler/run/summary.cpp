@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -47,6 +48,17 @@ void add_facts(json& summary, const PreparedRun& run) {
       summary["effects"].push_back(to_json(effect, name_of(peer->role())));
   }
   if (run.interface) summary["interface"] = to_json(*run.interface);
+}
+
+void add_iterations(json& summary, const IterationTally& tally) {
+  const auto windows = static_cast<double>(std::max<std::int64_t>(tally.windows, 1));
+  summary["iterations"] = {{"mean", static_cast<double>(tally.iterations) / windows},
+                           {"most", tally.most},
+                           {"total", tally.iterations},
+                           {"windows_not_converged", tally.not_converged}};
+  if (tally.not_converged == 0) return;
+  summary["warnings"].push_back(
+      fmt::format("{} of {} windows did not converge", tally.not_converged, tally.windows));
 }
 
 std::string closing_words(const std::filesystem::path& folder) {

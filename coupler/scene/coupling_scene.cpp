@@ -1,8 +1,73 @@
 #include "coupler/scene/coupling_scene.hpp"
 
 namespace talus::coupler {
+namespace {
+
+constexpr core::Range relaxation{.low = 0, .high = 2, .low_included = false};
+constexpr core::Range filter_range{.low = 1e-7, .high = 1};
+constexpr core::Range at_least_one{.low = 1, .high = 100000};
+constexpr const char* initial_help = "relaxation of the first iteration";
+
+void describe_common(core::Fields& fields, ImplicitScene& scheme) {
+  fields.choice("predictor", scheme.predictor, {"constant", "linear"},
+                "how a window's first iterate follows from its start");
+  fields.section("tolerance", scheme.tolerance,
+                 "when a window counts as converged, on every field of the interface");
+  fields.with_default("iterations", scheme.iterations,
+                      {.range = at_least_one, .help = "most iterations of a window"});
+  fields.choice("not_converged", scheme.not_converged, {"error", "warning"},
+                "what a window is that takes more iterations");
+  fields.one_of(scheme.acceleration,
+                {{"fixed", "constant relaxation"},
+                 {"aitken", "relaxation after the last two residuals"},
+                 {"iqn_ils", "quasi-Newton from the residuals of this window and those before"}});
+}
+
+}  // namespace
 
 void describe(core::Fields&, SerialExplicitScene&) {}
+void describe(core::Fields&, ParallelExplicitScene&) {}
+
+void describe(core::Fields& fields, FixedScene& acceleration) {
+  fields.with_default("factor", acceleration.factor,
+                      {.range = relaxation, .help = "share of the residual that is added"});
+}
+
+void describe(core::Fields& fields, AitkenScene& acceleration) {
+  fields.with_default("initial", acceleration.initial, {.range = relaxation, .help = initial_help});
+}
+
+void describe(core::Fields& fields, IqnIlsScene& acceleration) {
+  fields.with_default("initial", acceleration.initial, {.range = relaxation, .help = initial_help});
+  fields.with_default("columns", acceleration.columns,
+                      {.range = at_least_one, .help = "most residual changes that are kept"});
+  fields.with_default("windows", acceleration.windows,
+                      {.range = core::not_negative, .help = "windows for which they are kept"});
+  fields.with_default(
+      "filter", acceleration.filter,
+      {.range = filter_range, .help = "a change is skipped whose new part is smaller than this share of it"});
+}
+
+void describe(core::Fields& fields, ToleranceScene& tolerance) {
+  fields.with_default("relative", tolerance.relative,
+                      {.range = core::positive, .help = "change of a field over its size"});
+  fields.with_default("displacement", tolerance.displacement,
+                      {.unit = "m", .range = core::positive, .help = "change that is always small enough"});
+  fields.with_default("velocity", tolerance.velocity,
+                      {.unit = "m/s", .range = core::positive, .help = "change that is always small enough"});
+  fields.with_default("force", tolerance.force,
+                      {.unit = "N", .range = core::positive, .help = "change that is always small enough"});
+}
+
+void describe(core::Fields& fields, SerialImplicitScene& scheme) {
+  fields.choice("relax", scheme.relax, {"motion", "force"},
+                "what is iterated on: the boundary's motion or the contact forces");
+  describe_common(fields, scheme.common);
+}
+
+void describe(core::Fields& fields, ParallelImplicitScene& scheme) {
+  describe_common(fields, scheme.common);
+}
 
 void describe(core::Fields& fields, CouplingScene& coupling) {
   fields.optional(
@@ -15,7 +80,10 @@ void describe(core::Fields& fields, CouplingScene& coupling) {
       "join_timeout", coupling.join_timeout,
       {.unit = "s", .range = core::positive, .help = "longest time a solver may take to start and join"});
   fields.one_of(coupling.scheme,
-                {{"serial_explicit", "particles, then structure, once a window (the default)"}});
+                {{"serial_explicit", "particles, then structure, once a window (the default)"},
+                 {"parallel_explicit", "both at the same time, once a window"},
+                 {"serial_implicit", "one after the other, repeated until both agree"},
+                 {"parallel_implicit", "both at the same time, repeated until they agree"}});
 }
 
 }  // namespace talus::coupler

@@ -2,14 +2,27 @@
 
 #include <algorithm>
 
+#include "coupler/session/introduction.hpp"
+
 namespace talus::coupler {
+namespace {
 
 using transport::ArrayName;
 
-namespace {
+Exchange::Side side(Session& session, Role role) {
+  Peer& peer = *session.find(role);
+  return {.peer = peer,
+          .force = peer.array(ArrayName::force),
+          .displacement = peer.array(ArrayName::displacement),
+          .velocity = peer.array(ArrayName::velocity),
+          .end_displacement = peer.array(ArrayName::end_displacement),
+          .end_velocity = peer.array(ArrayName::end_velocity),
+          .free_velocity = peer.array(ArrayName::free_velocity)};
+}
 
-bool all_zero(std::span<const double> values) {
-  return std::all_of(values.begin(), values.end(), [](double value) { return value == 0; });
+ForceMeaning meaning_for(const Exchange::Side& side, double window_length) {
+  return takes_several_steps(side.peer.declaration(), window_length) ? ForceMeaning::mean
+                                                                     : ForceMeaning::at_start;
 }
 
 }  // namespace
@@ -22,22 +35,13 @@ Command advance(const Window& window, int iteration) {
           .length = window.length};
 }
 
-Exchange::Side Exchange::side(Session& session, Role role) {
-  Peer& peer = *session.find(role);
-  return {.peer = peer,
-          .force = peer.array(ArrayName::force),
-          .displacement = peer.array(ArrayName::displacement),
-          .velocity = peer.array(ArrayName::velocity),
-          .end_displacement = peer.array(ArrayName::end_displacement),
-          .end_velocity = peer.array(ArrayName::end_velocity),
-          .free_velocity = peer.array(ArrayName::free_velocity)};
-}
-
-Exchange::Exchange(Session& session, const mesh::Mapping& mapping)
+Exchange::Exchange(Session& session, const mesh::Mapping& mapping, double window_length)
     : session_(session),
       mapping_(mapping),
       structure_(side(session, Role::structure)),
-      particles_(side(session, Role::particles)) {}
+      particles_(side(session, Role::particles)),
+      structure_work_(meaning_for(structure_, window_length)),
+      boundary_work_(meaning_for(particles_, window_length)) {}
 
 void Exchange::advance_particles(const Window& window, int iteration) {
   session_.ask(particles_.peer, advance(window, iteration));
@@ -47,23 +51,51 @@ void Exchange::advance_structure(const Window& window, int iteration) {
   session_.ask(structure_.peer, advance(window, iteration));
 }
 
-void Exchange::forces_to_structure() {
-  const bool touched = touching_;
-  touching_ = !all_zero(particles_.force);
-  if (!touching_ && !touched) return;
+void Exchange::advance_both(const Window& window, int iteration) {
+  session_.post(particles_.peer, advance(window, iteration));
+  session_.post(structure_.peer, advance(window, iteration));
+  session_.wait_answer(particles_.peer);
+  session_.wait_answer(structure_.peer);
+}
+
+void Exchange::save_states(const Window& window) {
+  structure_start_.assign(structure_.displacement.begin(), structure_.displacement.end());
+  session_.ask_all({.action = Action::save_state,
+                    .window = window.index,
+                    .time = window.start(),
+                    .length = window.length});
+}
+
+void Exchange::restore_states(const Window& window) {
+  session_.ask_all({.action = Action::restore_state,
+                    .window = window.index,
+                    .time = window.start(),
+                    .length = window.length});
+}
+
+bool Exchange::touching() const {
+  return std::any_of(particles_.force.begin(), particles_.force.end(),
+                     [](double value) { return value != 0; });
+}
+
+void Exchange::forces_to_structure(const Window& window) {
+  const bool touches = touching();
+  if (!touches && !touched_) return;
+  touched_ = touches;
   mapping_.to_structure(particles_.force, structure_.force);
-  boundary_work_.begin(particles_.force, particles_.displacement);
-  structure_work_.begin(structure_.force, structure_.displacement);
+  boundary_work_.begin(particles_.force, {particles_.displacement, particles_.velocity}, window.length);
+  structure_work_.begin(structure_.force, {structure_.displacement, structure_.velocity}, window.length);
 }
 
 void Exchange::motion_to_boundary() {
+  const auto reached = particles_.end_displacement;
+  if (!reached.empty()) boundary_work_.end(reached);
   mapping_.to_boundary(structure_.displacement, particles_.displacement);
   mapping_.to_boundary(structure_.velocity, particles_.velocity);
   if (!structure_.free_velocity.empty())
     mapping_.to_boundary(structure_.free_velocity, particles_.free_velocity);
   structure_work_.end(structure_.displacement);
-  boundary_work_.end(particles_.end_displacement.empty() ? particles_.displacement
-                                                         : particles_.end_displacement);
+  if (reached.empty()) boundary_work_.end(particles_.displacement);
 }
 
 void Exchange::extrapolate_boundary_end(const Window& window) {
@@ -72,6 +104,13 @@ void Exchange::extrapolate_boundary_end(const Window& window) {
     particles_.end_displacement[i] = particles_.displacement[i] + window.length * particles_.velocity[i];
   }
   std::copy(particles_.velocity.begin(), particles_.velocity.end(), particles_.end_velocity.begin());
+}
+
+void Exchange::accept_window() {
+  boundary_work_.add(particles_.force, particles_.displacement, particles_.end_displacement);
+  structure_work_.add(structure_.force, structure_start_, structure_.displacement);
+  mapping_.to_boundary(structure_.displacement, particles_.displacement);
+  mapping_.to_boundary(structure_.velocity, particles_.velocity);
 }
 
 }  // namespace talus::coupler

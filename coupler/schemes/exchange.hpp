@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "coupler/schemes/work_meter.hpp"
 #include "coupler/session/session.hpp"
@@ -23,41 +24,60 @@ Command advance(const Window& window, int iteration = 0);
 /// shared memory; values are mapped straight from one side's array into the other's.
 class Exchange {
  public:
+  /// A side's arrays, 3 values a node. Of the structure only the first three exist.
+  struct Side {
+    Peer& peer;
+    std::span<double> force, displacement, velocity;  ///< of the boundary: motion at the window's start
+    std::span<double> end_displacement,
+        end_velocity;                 ///< empty: the particles do not look at the window's end
+    std::span<double> free_velocity;  ///< empty: the particles do not ask for it
+  };
+
   /// @pre the session's arrays are laid out; `mapping` lives as long as this
-  Exchange(Session& session, const mesh::Mapping& mapping);
+  Exchange(Session& session, const mesh::Mapping& mapping, double window_length);
 
   /// Before the first window, once the structure has answered to something: its motion at time 0.
   void start() { motion_to_boundary(); }
 
-  // The participants' parts of a window; each returns when the answer is there.
+  // The participants' parts of a window; each returns when the answers are there.
   void advance_particles(const Window& window, int iteration = 0);
   void advance_structure(const Window& window, int iteration = 0);
+  void advance_both(const Window& window, int iteration = 0);
+  void save_states(const Window& window);
+  void restore_states(const Window& window);
 
+  // Explicit schemes: straight from array to array.
   /// f_S = W^T f_D. Skipped while nothing touches: the forces of the last window were zero, as are these.
-  void forces_to_structure();
+  void forces_to_structure(const Window& window);
   /// u_D = W u_S, v_D = W v_S, as the boundary's motion at the start of the next window.
   void motion_to_boundary();
   /// The boundary's motion at the window's end as the start's motion promises it: u + v length, v. Only for
   /// particles that take several steps a window; others do not look at it.
   void extrapolate_boundary_end(const Window& window);
 
+  // Strong schemes: what a window settles on after its iterations.
+  void load_structure(std::span<const double> boundary_force) {
+    mapping_.to_structure(boundary_force, structure_.force);
+  }
+  void accept_window();
+
+  const mesh::Mapping& mapping() const { return mapping_; }
+  Side& structure() { return structure_; }
+  Side& particles() { return particles_; }
+
   /// Work since the start, J.
   double work_on_structure() const { return structure_work_.joules(); }
   double work_on_boundary() const { return boundary_work_.joules(); }
-  bool touching() const { return touching_; }
+  /// Whether the particles' last forces are not all zero.
+  bool touching() const;
 
  private:
-  struct Side {
-    Peer& peer;
-    std::span<double> force, displacement, velocity, end_displacement, end_velocity, free_velocity;
-  };
-  static Side side(Session& session, Role role);
-
   Session& session_;
   const mesh::Mapping& mapping_;
   Side structure_, particles_;
   WorkMeter structure_work_, boundary_work_;
-  bool touching_ = false;
+  std::vector<double> structure_start_;  ///< displacement at the start of a window that is iterated
+  bool touched_ = false;
 };
 
 }  // namespace talus::coupler

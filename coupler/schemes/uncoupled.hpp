@@ -6,11 +6,7 @@ namespace talus::coupler {
 
 /// A scene without an interface: what sides there are advance for themselves, at the same time.
 struct Uncoupled {
-  void compute(Session& session, const Window& window) {
-    const auto peers = session.peers();
-    for (Peer* peer : peers) session.post(*peer, advance(window));
-    for (Peer* peer : peers) session.wait_answer(*peer);
-  }
+  void compute(Session& session, const Window& window) { session.ask_all(advance(window)); }
 };
 
 }  // namespace talus::coupler

@@ -125,8 +125,13 @@ bool takes_several_steps(const Declaration& declaration, double window_length) {
   return declaration.step > 0 && declaration.step < window_length * (1 - round_off);
 }
 
-void lay_out_arrays(Session& session, const std::optional<Interface>& interface, double window_length) {
+void lay_out_arrays(Session& session, const std::optional<Interface>& interface, double window_length,
+                    BoundaryEnd boundary_end) {
   const bool free_velocity = needs_free_velocity(session, window_length);
+  if (free_velocity && boundary_end == BoundaryEnd::always)
+    throw core::ConfigError(
+        "particles.implicit_contact is for the explicit schemes of 'coupling'; a strong scheme iterates "
+        "instead");
   for (Peer* peer : session.peers()) {
     Session::request_array(*peer, ArrayName::outputs, peer->output_arrays().size());
     if (!interface) continue;
@@ -136,7 +141,9 @@ void lay_out_arrays(Session& session, const std::optional<Interface>& interface,
       Session::request_array(*peer, name, values);
     }
     if (free_velocity) Session::request_array(*peer, ArrayName::free_velocity, values);
-    if (is_structure || !takes_several_steps(peer->declaration(), window_length)) continue;
+    if (is_structure) continue;
+    if (boundary_end != BoundaryEnd::always && !takes_several_steps(peer->declaration(), window_length))
+      continue;
     Session::request_array(*peer, ArrayName::end_displacement, values);
     Session::request_array(*peer, ArrayName::end_velocity, values);
   }

@@ -44,7 +44,12 @@ bool takes_several_steps(const Declaration& declaration, double window_length);
 /// @throws core::ConfigError where the structure cannot say it, or a side takes several steps a window (s)
 bool needs_free_velocity(Session& session, double window_length);
 
+/// Whether the particles get the boundary's motion at the window's end: those that take several steps, or
+/// everybody because the scheme iterates on it.
+enum class BoundaryEnd { for_several_steps, always };
+
 /// Sizes every array of every participant and makes the data block.
-void lay_out_arrays(Session& session, const std::optional<Interface>& interface, double window_length);
+void lay_out_arrays(Session& session, const std::optional<Interface>& interface, double window_length,
+                    BoundaryEnd boundary_end = BoundaryEnd::for_several_steps);
 
 }  // namespace talus::coupler

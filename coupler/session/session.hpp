@@ -56,6 +56,11 @@ class Session {
     post(peer, command);
     wait_answer(peer);
   }
+  /// The same of everybody, at the same time.
+  void ask_all(const Command& command) {
+    for (const auto& peer : peers_) post(*peer, command);
+    for (const auto& peer : peers_) wait_answer(*peer);
+  }
   std::int64_t window() const { return window_; }
 
   /// Tells everybody to leave and waits until they did. @throws TransportError if one of them ends badly

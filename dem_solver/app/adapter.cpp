@@ -119,7 +119,9 @@ class Server {
   std::optional<ParticleSolver> saved_;
 };
 
-void serve(const core::SceneFile& file, coupler::Participant& participant) {
+}  // namespace
+
+void serve_particles(const core::SceneFile& file, coupler::Participant& participant) {
   const RunScene scene = read_run_scene(file);
   const CoupledBoundary boundary = receive_boundary(scene, participant);
   ParticleRun run(scene, boundary.surface, boundary.node_masses);
@@ -127,17 +129,6 @@ void serve(const core::SceneFile& file, coupler::Participant& participant) {
     run.solver.boundary().set_node_masses(boundary.node_masses, boundary.first_node);
   participant.declare(declaration_of(scene, run, !boundary.node_masses.empty()));
   Server(scene, run, participant, boundary.first_node).serve();
-}
-
-}  // namespace
-
-void serve_particles(const core::SceneFile& file, coupler::Participant& participant) {
-  try {
-    serve(file, participant);
-  } catch (const std::exception& error) {
-    participant.fail(error);
-    throw;
-  }
 }
 
 }  // namespace talus::dem

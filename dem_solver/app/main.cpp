@@ -9,10 +9,10 @@ namespace {
 
 core::ExitCode run(const core::SolverCommand& command) {
   if (command.join.empty()) return dem::run_standalone(command);
-  const auto participant =
-      coupler::Participant::join({.segment = command.join, .role = coupler::Role::particles});
-  dem::serve_particles(core::SceneFile::load(command.scene), *participant);
-  return core::ExitCode::success;
+  return coupler::take_part({.segment = command.join, .role = coupler::Role::particles},
+                            [&](coupler::Participant& participant) {
+                              dem::serve_particles(core::SceneFile::load(command.scene), participant);
+                            });
 }
 
 }  // namespace

@@ -155,7 +155,9 @@ void obey(const coupler::Command& command, Structure& structure, coupler::Partic
   publish_motion(integrator, fields, present);
 }
 
-void serve(const core::SceneFile& file, coupler::Participant& participant) {
+}  // namespace
+
+void serve_structure(const core::SceneFile& file, coupler::Participant& participant) {
   const StructuralScene scene = read_structural_scene(file);
   Structure structure(scene);
   const PublishedSurface published = published_surface(structure.model(), interface_parts(file));
@@ -169,22 +171,11 @@ void serve(const core::SceneFile& file, coupler::Participant& participant) {
   }
 }
 
-}  // namespace
-
-void serve_structure(const core::SceneFile& file, coupler::Participant& participant) {
-  try {
-    serve(file, participant);
-  } catch (const std::exception& error) {
-    participant.fail(error);
-    throw;
-  }
-}
-
 core::ExitCode run_coupled(const core::SolverCommand& command) {
-  const auto participant =
-      coupler::Participant::join({.segment = command.join, .role = coupler::Role::structure});
-  serve_structure(core::SceneFile::load(command.scene), *participant);
-  return core::ExitCode::success;
+  return coupler::take_part({.segment = command.join, .role = coupler::Role::structure},
+                            [&](coupler::Participant& participant) {
+                              serve_structure(core::SceneFile::load(command.scene), participant);
+                            });
 }
 
 }  // namespace talus::fem

@@ -32,14 +32,31 @@ TEST_CASE("a million windows are a million windows, not one more by round-off") 
 }
 
 TEST_CASE("work is force times path, window by window") {
-  WorkMeter meter;
-  const std::vector<double> force{0, 2, -1}, start{5, 1, 1}, end{7, 4, 3};
-  meter.begin(force, start);
+  WorkMeter meter(ForceMeaning::mean);
+  const std::vector<double> force{0, 2, -1}, start{5, 1, 1}, end{7, 4, 3}, still{0, 0, 0};
+  meter.begin(force, {start, still}, 0.1);
   meter.end(end);
   CHECK(meter.joules() == 2 * (4 - 1) + -1 * (3 - 1));
-  meter.begin(force, end);
+  meter.begin(force, {end, still}, 0.1);
   meter.end(end);  // nothing moved
   CHECK(meter.joules() == 4);
+}
+
+TEST_CASE("the work of forces at a window's start is what the leapfrog's kinetic energy gains") {
+  constexpr double mass = 2, step = 0.01;
+  WorkMeter meter(ForceMeaning::at_start);
+  std::vector<double> position{0}, velocity{1}, force{0};
+  const double first_velocity = velocity[0];
+  for (int n = 0; n < 100; ++n) {
+    force[0] = 30 * std::sin(0.1 * n) - 4 * position[0];
+    meter.begin(force, {position, velocity}, step);
+    velocity[0] += step * force[0] / mass;
+    position[0] += step * velocity[0];
+    meter.end(position);
+  }
+  // f = m (v+ - v-)/L, so f . (v+ + v-) L/2 = m (v+^2 - v-^2)/2, which telescopes.
+  const double gained = 0.5 * mass * (velocity[0] * velocity[0] - first_velocity * first_velocity);
+  CHECK(meter.joules() == Approx(gained).epsilon(1e-12));
 }
 
 namespace {
@@ -79,4 +96,18 @@ TEST_CASE("scenes the coupler cannot run are refused with the reason") {
   CHECK(complaints_about(
             sides + "interface: {structure: [net], boundary: {same_as_structure: {wire_radius: -1 mm}}}\n")
             .size() == 1);
+}
+
+TEST_CASE("strong schemes are read with their accelerations, and wrong ones are refused") {
+  const auto with = [](const std::string& scheme) { return complaints_about(sides + "coupling: {" + scheme + "}\n"); };
+  CHECK(with("serial_implicit: {}").empty());
+  CHECK(with("serial_implicit: {relax: force, predictor: constant, aitken: {initial: 0.3}}").empty());
+  CHECK(with("parallel_implicit: {iqn_ils: {columns: 20, windows: 3}, tolerance: {relative: 1e-4}, not_converged: warning}").empty());
+  CHECK(with("parallel_explicit: {}").empty());
+  CHECK(with("serial_implicit: {aitken: {}, iqn_ils: {}}").size() == 1);
+  CHECK(with("serial_implicit: {fixed: {factor: 0}}").size() == 1);
+  CHECK(with("serial_implicit: {relax: speed}").size() == 1);
+  CHECK(with("serial_implicit: {iterations: 0}").size() == 1);
+  CHECK(with("serial_implicit: {iqn_ils: {filter: 1e-9}}").size() == 1);
+  CHECK(with("serial_explicit: {}, serial_implicit: {}").size() == 1);
 }

@@ -55,7 +55,7 @@ Outcome divided(const test::TwoMasses& system) {
   session.wait_joined();
   const auto interface = coupler::introduce(session, coupler::identical_surfaces());
   coupler::lay_out_arrays(session, interface, window_of(0).length);
-  coupler::Exchange exchange(session, interface->tie.mapping);
+  coupler::Exchange exchange(session, interface->tie.mapping, window_of(0).length);
   for (int n = 0; n < windows; ++n) {
     coupler::SerialExplicit{}.compute(exchange, window_of(n));
     const auto* node = session.find(coupler::Role::structure);

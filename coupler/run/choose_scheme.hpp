@@ -1,0 +1,82 @@
+#pragma once
+
+#include <utility>
+#include <variant>
+
+#include "coupler/acceleration/iqn_ils.hpp"
+#include "coupler/acceleration/relaxation.hpp"
+#include "coupler/scene/coupling_scene.hpp"
+#include "coupler/schemes/implicit.hpp"
+#include "coupler/schemes/parallel_explicit.hpp"
+#include "coupler/schemes/serial_explicit.hpp"
+
+/// From a scene's choice to the types that compute it: all combinations of scheme, unknown and acceleration.
+namespace talus::coupler {
+
+inline Convergence convergence_of(const ImplicitScene& scene) {
+  const ToleranceScene tolerance = scene.tolerance.value_or(ToleranceScene{});
+  return {.relative = tolerance.relative,
+          .absolute = {tolerance.displacement, tolerance.velocity, tolerance.force},
+          .most_iterations = static_cast<int>(scene.iterations),
+          .fail_otherwise = scene.not_converged == ImplicitScene::NotConverged::error};
+}
+
+inline NoAcceleration make_acceleration(std::monostate) {
+  return {};
+}
+inline FixedRelaxation make_acceleration(const FixedScene& scene) {
+  return {.factor = scene.factor};
+}
+inline Aitken make_acceleration(const AitkenScene& scene) {
+  return Aitken(scene.initial);
+}
+inline IqnIls make_acceleration(const IqnIlsScene& scene) {
+  return IqnIls({.initial_factor = scene.initial,
+                 .most_columns = static_cast<std::size_t>(scene.columns),
+                 .reused_windows = scene.windows,
+                 .filter = scene.filter});
+}
+
+/// Calls `use(scheme)` with the scheme that the scene names. @param node_mass mean mass behind a node of Ω_D,
+/// kg
+template <class Use>
+class SchemeChoice {
+ public:
+  SchemeChoice(Exchange& exchange, double node_mass, Use use)
+      : exchange_(exchange), node_mass_(node_mass), use_(std::move(use)) {}
+
+  void operator()(std::monostate) { (*this)(SerialExplicitScene{}); }
+  void operator()(const SerialExplicitScene&) { use_once(SerialExplicit{}); }
+  void operator()(const ParallelExplicitScene&) { use_once(ParallelExplicit{}); }
+  void operator()(const SerialImplicitScene& scene) {
+    if (scene.relax == SerialImplicitScene::Relax::motion) {
+      use_implicit(MotionUnknown(exchange_), scene.common);
+    } else {
+      use_implicit(ForceUnknown(exchange_), scene.common);
+    }
+  }
+  void operator()(const ParallelImplicitScene& scene) {
+    use_implicit(MotionAndForceUnknown(exchange_, node_mass_), scene.common);
+  }
+
+ private:
+  template <class Scheme>
+  void use_once(Scheme scheme) {
+    use_(scheme);
+  }
+  template <class Unknown>
+  void use_implicit(Unknown unknown, const ImplicitScene& scene) {
+    std::visit(
+        [&](const auto& acceleration) {
+          use_once(Implicit(std::move(unknown), make_acceleration(acceleration), convergence_of(scene),
+                            scene.predictor));
+        },
+        scene.acceleration);
+  }
+
+  Exchange& exchange_;
+  double node_mass_;
+  Use use_;
+};
+
+}  // namespace talus::coupler

@@ -1,0 +1,50 @@
+#include "coupler/schemes/convergence.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "core/errors.hpp"
+
+namespace talus::coupler {
+namespace {
+
+/// Change over what is allowed.
+double ratio_of(const FieldChange& field, double relative, double absolute) {
+  double change = 0, size = 0;
+  for (std::size_t i = 0; i < field.after.size(); ++i) {
+    const double difference = field.after[i] - field.before[i];
+    change += difference * difference;
+    size += field.after[i] * field.after[i];
+  }
+  return field.unit * std::sqrt(change) / std::fmax(absolute, relative * field.unit * std::sqrt(size));
+}
+
+}  // namespace
+
+const char* name_of(FieldName field) {
+  constexpr std::array<const char*, 3> names{"displacement", "velocity", "force"};
+  return names[static_cast<std::size_t>(field)];
+}
+
+Convergence::Verdict Convergence::judge(const std::array<FieldChange, 3>& changes) const {
+  Verdict verdict;
+  for (const auto& field : changes) {
+    const double ratio = ratio_of(field, relative, absolute[static_cast<std::size_t>(field.name)]);
+    // Written so that a ratio that is no number is the worst of all.
+    if (!(ratio <= verdict.ratio)) verdict = {.worst = field.name, .ratio = ratio};
+  }
+  return verdict;
+}
+
+void fail_not_converged(const Window& window, int iterations, const Convergence::Verdict& verdict) {
+  throw core::NumericalError(
+      {.what = fmt::format("the coupling has not converged after {} iterations of window {}", iterations,
+                           window.index),
+       .entity = fmt::format("the change of {} over what is allowed", name_of(verdict.worst)),
+       .step = window.index,
+       .time = window.start(),
+       .value = verdict.ratio});
+}
+
+}  // namespace talus::coupler

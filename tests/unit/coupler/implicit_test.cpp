@@ -1,0 +1,190 @@
+#include "coupler/schemes/implicit.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <mutex>
+
+#include "core/errors.hpp"
+#include "coupler/acceleration/iqn_ils.hpp"
+#include "coupler/acceleration/relaxation.hpp"
+#include "coupler/schemes/parallel_explicit.hpp"
+#include "coupler/schemes/serial_explicit.hpp"
+#include "tests/support/coupled_pair.hpp"
+#include "tests/support/sphere_on_spring.hpp"
+
+using namespace talus;
+using namespace talus::coupler;
+
+namespace {
+
+constexpr double tight = 1e-11;
+
+/// A mass under the trapezoidal rule, pulled by a spring whose other end is held: the particle side is that
+/// spring, evaluated at the window's end. So one iteration is u -> constant - (k L^2 / 4 m) u.
+struct HeldMass {
+  double mass = 2, stiffness = 300, velocity = 1.5;
+  double rate(double length) const { return -stiffness * length * length / (4 * mass); }
+};
+
+struct Spring {
+  std::vector<double> seen;  ///< the boundary at the end of each window computed
+  void serve(Participant& participant, double stiffness) {
+    std::vector<double> masses;
+    participant.receive_surface(masses);
+    participant.declare({.program = "spring"});
+    for (auto command = participant.next(); command.action != Action::finish; command = participant.next()) {
+      const auto fields = participant.particle_fields();
+      if (command.action == Action::advance) {
+        seen.push_back(fields.end_displacement[2]);
+        fields.force[2] = -stiffness * fields.end_displacement[2];
+      }
+      participant.answer();
+    }
+  }
+};
+
+void serve_mass(Participant& participant, const HeldMass& system) {
+  participant.publish_surface(test::one_node(), std::array{system.mass});
+  participant.declare({.program = "mass"});
+  test::TrapezoidalMass node{.mass = system.mass, .v = system.velocity};
+  test::TrapezoidalMass saved = node;
+  for (auto command = participant.next(); command.action != Action::finish; command = participant.next()) {
+    const auto fields = participant.structure_fields();
+    if (command.action == Action::advance) node.advance(fields.force[2], command.length);
+    if (command.action == Action::save_state) saved = node;
+    if (command.action == Action::restore_state) node = saved;
+    fields.displacement[2] = node.u;
+    fields.velocity[2] = node.v;
+    participant.answer();
+  }
+}
+
+struct HeldPair {
+  HeldPair(const HeldMass& system, double length)
+      : pair([&, system](auto& p) { serve_mass(p, system); },
+             [&, system](auto& p) { spring.serve(p, system.stiffness); }, length) {}
+  Spring spring;
+  test::CoupledPair pair;
+};
+
+Convergence tolerance(int most_iterations, bool fail = true) {
+  return {.relative = tight,
+          .absolute = {1e-14, 1e-14, 1e-14},
+          .most_iterations = most_iterations,
+          .fail_otherwise = fail};
+}
+
+/// The same mass on its spring, undivided, after `windows` trapezoidal steps.
+double undivided_displacement(const HeldMass& system, double length, int windows) {
+  test::TrapezoidalMass whole{.mass = system.mass, .stiffness = system.stiffness, .v = system.velocity};
+  for (int n = 0; n < windows; ++n) whole.advance(0, length);
+  return whole.u;
+}
+
+template <class MakeScheme>
+void check_against_undivided(MakeScheme&& make_scheme, double length) {
+  const HeldMass system;
+  HeldPair held(system, length);
+  auto scheme = make_scheme(held.pair.exchange());
+  for (int n = 0; n < 20; ++n) scheme.compute(held.pair.exchange(), {.index = n, .length = length});
+  // Twenty windows, each converged to `tight` of its values.
+  CHECK(held.pair.displacement() == Approx(undivided_displacement(system, length, 20)).epsilon(1e3 * tight));
+  CHECK(scheme.tally().not_converged == 0);
+}
+
+}  // namespace
+
+TEST_CASE("plain iteration contracts by k L^2 / 4 m, and diverges above L = 2 sqrt(m/k)") {
+  const HeldMass system;
+  const double largest = 2 * std::sqrt(system.mass / system.stiffness);
+  const double length = GENERATE_COPY(0.3 * largest, 0.9 * largest, 1.3 * largest);
+  HeldPair held(system, length);
+  Implicit scheme(MotionUnknown(held.pair.exchange()), NoAcceleration{}, tolerance(8, false),
+                  Predictor::constant);
+  scheme.compute(held.pair.exchange(), {.index = 0, .length = length});
+  const auto& seen = held.spring.seen;
+  REQUIRE(seen.size() >= 5);
+  for (std::size_t k = 2; k < 5; ++k) {
+    CHECK((seen[k] - seen[k - 1]) / (seen[k - 1] - seen[k - 2]) == Approx(system.rate(length)).epsilon(1e-6));
+  }
+  CHECK((std::abs(system.rate(length)) < 1) == (length < largest));
+}
+
+TEST_CASE("every strong scheme gives the undivided system's motion, also where plain iteration diverges") {
+  const HeldMass system;
+  const double length = GENERATE_COPY(0.5, 1.5) * 2 * std::sqrt(system.mass / system.stiffness);
+  const auto check = [&](auto make_unknown, auto acceleration) {
+    check_against_undivided(
+        [&](Exchange& exchange) {
+          return Implicit(make_unknown(exchange), acceleration, tolerance(200), Predictor::linear);
+        },
+        length);
+  };
+  const auto motion = [](Exchange& exchange) { return MotionUnknown(exchange); };
+  const auto force = [](Exchange& exchange) { return ForceUnknown(exchange); };
+  const auto both = [&](Exchange& exchange) { return MotionAndForceUnknown(exchange, system.mass); };
+  SECTION("motion, fixed") {
+    check(motion, FixedRelaxation{0.25});
+  }
+  SECTION("motion, Aitken") {
+    check(motion, Aitken(0.25));
+  }
+  SECTION("motion, IQN-ILS") {
+    check(motion, IqnIls({.initial_factor = 0.25}));
+  }
+  SECTION("force, Aitken") {
+    check(force, Aitken(0.25));
+  }
+  SECTION("force, IQN-ILS") {
+    check(force, IqnIls({.initial_factor = 0.25}));
+  }
+  SECTION("both at once, IQN-ILS") {
+    check(both, IqnIls({.initial_factor = 0.25}));
+  }
+}
+
+TEST_CASE(
+    "a window that does not converge is an error that names window and field, or is counted, as the scene "
+    "says") {
+  const HeldMass system;
+  const double length = 3 * std::sqrt(system.mass / system.stiffness);
+  HeldPair held(system, length);
+  SECTION("error") {
+    Implicit scheme(MotionUnknown(held.pair.exchange()), NoAcceleration{}, tolerance(5), Predictor::linear);
+    CHECK_THROWS_WITH(scheme.compute(held.pair.exchange(), {.index = 7, .length = length}),
+                      Catch::Contains("has not converged after 5 iterations of window 7"));
+  }
+  SECTION("counted") {
+    Implicit scheme(MotionUnknown(held.pair.exchange()), NoAcceleration{}, tolerance(5, false),
+                    Predictor::linear);
+    scheme.compute(held.pair.exchange(), {.index = 0, .length = length});
+    CHECK(scheme.tally().not_converged == 1);
+    CHECK(scheme.tally().iterations == 5);
+  }
+}
+
+TEST_CASE("a strong impact keeps the energy and finds the peak where the weak scheme loses both") {
+  // Mass ratio 100; the window is ten times what plain iteration allows, 2 sqrt(m/k) = 0.9 ms being the
+  // limit.
+  const test::SphereOnSpring system;
+  const double length = 2e-4;
+  const auto reference = test::undivided(system, 1e-7);
+  const auto error_of_peak = [&](auto make_scheme) {
+    test::SphereState sphere;
+    test::CoupledPair pair([&](auto& p) { test::serve_structure(p, system); },
+                           [&](auto& p) { test::serve_sphere(p, system, sphere); }, length);
+    auto scheme = make_scheme(pair.exchange());
+    double peak = 0;
+    for (int n = 0; n * length < 1.2 * reference.contact; ++n) {
+      scheme.compute(pair.exchange(), {.index = n, .length = length});
+      peak = std::max(peak, -pair.displacement());
+    }
+    return std::abs(peak / reference.peak - 1);
+  };
+  const double weak = error_of_peak([](Exchange&) { return SerialExplicit{}; });
+  const double strong = error_of_peak([](Exchange& exchange) {
+    return Implicit(MotionUnknown(exchange), Aitken(0.5), Convergence{.relative = 1e-5}, Predictor::linear);
+  });
+  CHECK(strong < 0.02);
+  CHECK(strong < weak);
+}
