@@ -26,16 +26,19 @@ inline double contact_force(const SphereOnSpring& system, double sphere, double 
   return overlap > 0 || system.sticks ? system.contact_stiffness * overlap : 0;
 }
 
-/// One degree of freedom under the trapezoidal rule.
+/// One degree of freedom under the trapezoidal rule, with the window's mean force:
+///     v' = v + (L/m) (f - k (u + u')/2)      u' = u + L (v + v')/2
+/// The mean belongs to the window's middle. Taken for the force at the window's end it would lag by half a
+/// window, which feeds energy into the contact spring.
 struct TrapezoidalMass {
   double mass = 1, stiffness = 0;
-  double u = 0, v = 0, a = 0;
-  void advance(double force, double length) {
-    const double predicted = u + length * v + 0.25 * length * length * a;
-    const double next = (force - stiffness * predicted) / (mass + 0.25 * length * length * stiffness);
-    u = predicted + 0.25 * length * length * next;
-    v += 0.5 * length * (a + next);
-    a = next;
+  double u = 0, v = 0;
+  void advance(double mean_force, double length) {
+    const double share = stiffness * length * length / (4 * mass);
+    const double next =
+        (u * (1 - share) + length * v + 0.5 * length * length * mean_force / mass) / (1 + share);
+    v = 2 * (next - u) / length - v;
+    u = next;
   }
   double energy() const { return 0.5 * mass * v * v + 0.5 * stiffness * u * u; }
 };

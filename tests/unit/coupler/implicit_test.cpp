@@ -36,7 +36,7 @@ struct Spring {
       const auto fields = participant.particle_fields();
       if (command.action == Action::advance) {
         seen.push_back(fields.end_displacement[2]);
-        fields.force[2] = -stiffness * fields.end_displacement[2];
+        fields.force[2] = -0.5 * stiffness * (fields.start_displacement[2] + fields.end_displacement[2]);
       }
       participant.answer();
     }
