@@ -44,6 +44,7 @@ void run_in_process(const std::filesystem::path& scene_file, const std::filesyst
                              core::ProgressStyle::quiet);
   for (std::int64_t n = 0; n < span.windows(); ++n) {
     reporter.at(n);
+    if (n == 0) exchange.start();
     coupler::SerialExplicit{}.compute(exchange, {.index = n, .length = span.window_length});
   }
   reporter.last(span.windows());
