@@ -16,8 +16,8 @@
 namespace talus::core {
 
 const std::vector<std::string>& scene_sections() {
-  static const std::vector<std::string> sections{"title",     "extends",   "time",     "structure",
-                                                 "particles", "interface", "coupling", "output"};
+  static const std::vector<std::string> sections{"title",     "extends",  "time",   "structure", "particles",
+                                                 "interface", "coupling", "output", "regression"};
   return sections;
 }
 

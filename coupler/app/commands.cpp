@@ -12,7 +12,7 @@
 namespace talus::coupler {
 
 const std::vector<AddSubcommand>& subcommands() {
-  static const std::vector<AddSubcommand> all{add_run,    add_check, add_explain,    add_study,
+  static const std::vector<AddSubcommand> all{add_run,    add_check, add_explain,    add_study,  add_regress,
                                               add_schema, add_mesh,  add_homogenise, add_version};
   return all;
 }

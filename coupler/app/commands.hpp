@@ -23,6 +23,7 @@ using AddSubcommand = void (*)(CLI::App& app, Chosen& chosen);
 void add_run(CLI::App& app, Chosen& chosen);
 void add_check(CLI::App& app, Chosen& chosen);
 void add_explain(CLI::App& app, Chosen& chosen);
+void add_regress(CLI::App& app, Chosen& chosen);
 void add_schema(CLI::App& app, Chosen& chosen);
 void add_study(CLI::App& app, Chosen& chosen);
 void add_mesh(CLI::App& app, Chosen& chosen);

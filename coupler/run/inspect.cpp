@@ -9,6 +9,7 @@
 
 #include "core/scene/reader.hpp"
 #include "coupler/launch/find_solver.hpp"
+#include "coupler/regress/regression.hpp"
 #include "coupler/run/prepared_run.hpp"
 
 namespace talus::coupler {
@@ -80,6 +81,8 @@ core::ExitCode print_schema() {
                                       "what the particles touch and how it moves with the structure");
   page +=
       markdown_of<CouplingScene>("coupling", "how often and in which order the two sides hear of each other");
+  page += markdown_of<regress::RegressionScene>(
+      "regression", "how far the result may be from its baseline (talus regress)");
   for (const char* solver : {"fem_solver", "dem_solver"}) {
     page += output_of("'" + launch::own_solver(solver).string() + "' --schema");
   }

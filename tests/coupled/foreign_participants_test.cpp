@@ -23,18 +23,18 @@ coupler::Window window_of(std::int64_t index) {
   return {.index = index, .length = 1e-3};
 }
 
-/// A structure in Python, and particles that this test is itself.
-class PythonRun {
+/// A structure in a program of its own, and particles that this test is itself.
+class ForeignRun {
  public:
-  PythonRun(const std::string& solver, const std::vector<std::string>& arguments)
+  ForeignRun(const std::string& solver, const std::vector<std::string>& arguments)
       : segment_(coupler::transport::create_shared_segment()), session_(segment_, {.timeout = 20}) {
-    auto program = coupler::launch::named_solver(solver, root + "/" + solver).value();
+    auto program = coupler::launch::named_solver(solver, std::filesystem::path(root) / solver).value();
     program.command.insert(program.command.end(), arguments.begin(), arguments.end());
     session_.launch(Role::structure, program);
     session_.await(Role::particles);
     particles_ = coupler::Participant::join({.segment = segment_->name(), .role = Role::particles});
   }
-  ~PythonRun() {
+  ~ForeignRun() {
     session_.abort("the test is over");
     if (pushing_.joinable()) pushing_.join();
   }
@@ -85,7 +85,7 @@ double no_force(std::int64_t) {
 }
 
 void run_failing(const std::string& how) {
-  PythonRun run("tests/coupled/participants/failing.py", {how});
+  ForeignRun run("tests/coupled/participants/failing.py", {how});
   run.start(0, no_force);
   for (int window = 0; window < 5; ++window) run.compute(window);
 }
@@ -95,8 +95,12 @@ constexpr double noticed_within = 1;
 
 }  // namespace
 
-TEST_CASE("masses on springs in Python move as the leapfrog says, to the last bit") {
-  PythonRun run("python/examples/springs.py", {"scene.yaml"});
+TEST_CASE("masses on springs in C, C++ and Python move as the leapfrog says, to the last bit") {
+  const std::string program =
+      GENERATE("examples/participants/springs.py", TALUS_BINARY_DIR "/bin/springs_cpp",
+               TALUS_BINARY_DIR "/bin/springs_c");
+  INFO(program);
+  ForeignRun run(program, {"scene.yaml"});
   const std::size_t middle = 12, corner = 0;
   run.start(middle, pulsating_force);
   REQUIRE(run.interface().structure.node_count() == 25);
@@ -118,8 +122,12 @@ TEST_CASE("masses on springs in Python move as the leapfrog says, to the last bi
   run.session().finish();
 }
 
-TEST_CASE("a Python participant goes back to the state it saved") {
-  PythonRun run("python/examples/springs.py", {"scene.yaml"});
+TEST_CASE("participants in C, C++ and Python go back to the state they saved") {
+  const std::string program =
+      GENERATE("examples/participants/springs.py", TALUS_BINARY_DIR "/bin/springs_cpp",
+               TALUS_BINARY_DIR "/bin/springs_c");
+  INFO(program);
+  ForeignRun run(program, {"scene.yaml"});
   run.start(12, pulsating_force);
   const auto displacement = run.structure().array(coupler::transport::ArrayName::displacement);
   for (int window = 0; window < 10; ++window) run.compute(window);
@@ -160,7 +168,7 @@ TEST_CASE("any other exception in Python ends the run with its type, its text an
 TEST_CASE("a Python participant that leaves or is killed is named within a second") {
   for (const auto& [how, told] :
        {std::pair{"leave", "SystemExit: 3"}, std::pair{"kill", "killed by signal 9"}}) {
-    PythonRun run("tests/coupled/participants/failing.py", {how});
+    ForeignRun run("tests/coupled/participants/failing.py", {how});
     run.start(0, no_force);
     run.compute(0);
     run.compute(1);
