@@ -54,7 +54,7 @@ TEST_CASE("an unknown section of a scene is told with the known ones, and the ti
                     "scene.yaml:1:8: title: expects a text, got a list of 1\n"
                     "scene.yaml:2:1: times: unknown section; did you mean 'time'? known: title, extends, "
                     "time, structure, particles, "
-                    "interface, coupling, output");
+                    "interface, coupling, output, regression");
 }
 
 TEST_CASE("the title of a scene is its own or the stem of its file") {
