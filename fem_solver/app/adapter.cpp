@@ -99,9 +99,10 @@ coupler::Declaration declaration(Structure& structure, const StructuralScene& sc
       .limits = {},
       .effects = {},
       .outputs = structure.output().description()};
-  for (const auto& bound : structure.bounds())
-    declared.limits.push_back(
-        {bound.name, bound.seconds, &bound == &structure.bounds().front(), bound.reason});
+  if (!structure.bounds().empty()) {
+    const StepBound& bound = structure.bounds().front();
+    declared.limits.push_back({bound.name, bound.seconds, true, bound.reason});
+  }
   for (const auto& effect : structural_effects(scene.structure))
     declared.effects.push_back({effect.name, effect.present, effect.reason});
   return declared;
@@ -147,8 +148,10 @@ void obey(const coupler::Command& command, Structure& structure, coupler::Partic
       integrator.last_output_time = command.time;
       break;
     case Action::write_checkpoint:
+      return structure.write_checkpoint(command.path);
     case Action::read_checkpoint:
-      throw core::UsageError("fem_solver cannot write checkpoints yet");
+      structure.read_checkpoint(command.path);
+      break;
     case Action::finish:
       return;
   }

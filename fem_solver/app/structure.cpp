@@ -4,6 +4,8 @@
 
 #include "core/units/units.hpp"
 #include "fem_solver/integration/explicit.hpp"
+#include "fem_solver/integration/implicit_solver.hpp"
+#include "fem_solver/integration/static_solver.hpp"
 #include "fem_solver/scene/build_model.hpp"
 
 namespace talus::fem {
@@ -16,11 +18,48 @@ constexpr const char* structure_help =
 /// that cables which snap taut keep the energy balance (measured in docs/step_limits.md).
 constexpr double default_share_of_limit = 0.5;
 
+bool is_explicit(const StructureScene& scene) {
+  return std::holds_alternative<std::monostate>(scene.method) ||
+         std::holds_alternative<ExplicitScene>(scene.method);
+}
+
+std::vector<StepBound> bounds_of(const StructureScene& scene, Assembly& assembly) {
+  if (!is_explicit(scene)) return {};
+  return step_bounds(assembly, std::vector<double>(assembly.model().reference.size(), 0.0));
+}
+
 double chosen_step(const StructuralScene& scene, const std::vector<StepBound>& bounds) {
+  if (const auto* loads = std::get_if<StaticScene>(&scene.structure.method))
+    return scene.time.end / static_cast<double>(loads->steps);
   if (scene.structure.step) return *scene.structure.step;
   if (scene.time.step) return *scene.time.step;
-  return bounds.empty() ? scene.time.end : default_share_of_limit * bounds.front().seconds;
+  if (bounds.empty())
+    throw core::ConfigError("structure: an implicit run needs `structure.step` or `time.step`");
+  return default_share_of_limit * bounds.front().seconds;
 }
+
+/// The integrator that a method of the scene means.
+struct MakeIntegrator {
+  const Model& model;
+  Assembly& assembly;
+  double step, end;  ///< s
+
+  using Made = std::unique_ptr<Integrator>;
+  Made operator()(std::monostate) const { return std::make_unique<ExplicitSolver>(model, assembly, step); }
+  Made operator()(const ExplicitScene&) const {
+    return std::make_unique<ExplicitSolver>(model, assembly, step);
+  }
+  Made operator()(const ImplicitScene& scene) const {
+    return std::make_unique<ImplicitSolver>(model, assembly,
+                                            ImplicitOptions{.step = step,
+                                                            .spectral_radius = scene.spectral_radius,
+                                                            .newton = {.tolerance = scene.tolerance}});
+  }
+  Made operator()(const StaticScene& scene) const {
+    return std::make_unique<StaticSolver>(
+        model, assembly, StaticOptions{.end = end, .step = step, .newton = {.tolerance = scene.tolerance}});
+  }
+};
 
 }  // namespace
 
@@ -64,11 +103,11 @@ std::vector<StructuralEffect> structural_effects(const StructureScene& scene) {
 Structure::Structure(const StructuralScene& scene)
     : model_(build_model(scene.structure)),
       assembly_(model_),
-      bounds_(step_bounds(assembly_, std::vector<double>(model_.reference.size(), 0.0))),
+      bounds_(bounds_of(scene.structure, assembly_)),
       step_(chosen_step(scene, bounds_)),
       output_scene_(scene.output) {
   check_step(scene.structure);
-  integrator_ = std::make_unique<ExplicitSolver>(model_, assembly_, step_);
+  integrator_ = std::visit(MakeIntegrator{model_, assembly_, step_, scene.time.end}, scene.structure.method);
 }
 
 void Structure::check_step(const StructureScene& scene) const {
@@ -84,6 +123,17 @@ void Structure::check_step(const StructureScene& scene) const {
 void Structure::make_interface(const std::vector<Index>& nodes) {
   integrator_->interface().nodes = nodes;
   integrator_->interface().force.assign(3 * nodes.size(), 0.0);
+}
+
+void Structure::write_checkpoint(const std::filesystem::path& path) {
+  core::CheckpointWriter writer(path, integrator_->method());
+  integrator_->archive(writer);
+  writer.commit();
+}
+
+void Structure::read_checkpoint(const std::filesystem::path& path) {
+  core::CheckpointReader reader(path, integrator_->method());
+  integrator_->archive(reader);
 }
 
 const StructureOutput& Structure::output() {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -46,6 +47,10 @@ class Structure {
   void make_interface(const std::vector<Index>& nodes);
   /// Makes the output; the interface must be known by then.
   const StructureOutput& output();
+
+  /// The whole state, bit for bit. @throws std::runtime_error, core::ConfigError
+  void write_checkpoint(const std::filesystem::path& path);
+  void read_checkpoint(const std::filesystem::path& path);
 
   double step() const { return step_; }                             ///< s
   const std::vector<StepBound>& bounds() const { return bounds_; }  ///< the one that counts first

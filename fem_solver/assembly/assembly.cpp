@@ -1,5 +1,7 @@
 #include "fem_solver/assembly/assembly.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "core/parallel.hpp"
@@ -83,6 +85,12 @@ void Assembly::stiffest_product(std::span<const double> displacement, std::span<
     batch.stiffest_product(displacement, direction, slots, elements);
   });
   gather(1, product);
+}
+
+double Assembly::largest_element_force() const noexcept {
+  double largest = 0;
+  for (const double value : slots_) largest = std::max(largest, std::abs(value));
+  return largest;
 }
 
 void Assembly::gather(double factor, std::span<double> sums) const noexcept {

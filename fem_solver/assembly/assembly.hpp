@@ -23,6 +23,9 @@ class Assembly {
   void stiffest_product(std::span<const double> displacement, std::span<const double> direction,
                         std::span<double> product) noexcept;
 
+  /// The largest component of any element's force in the last internal_force (N).
+  double largest_element_force() const noexcept;
+
   const Model& model() const { return model_; }
 
  private:

@@ -6,30 +6,13 @@
 #include <type_traits>
 
 #include "core/errors.hpp"
+#include "fem_solver/integration/external_force.hpp"
 
 namespace talus::fem {
 namespace {
 
 struct NoTerm {};
 struct MassDampingTerm {};
-
-std::size_t supported_nodes(const Model& model) {
-  std::size_t count = 0;
-  for (const auto& support : model.supports) count += support.nodes.size();
-  return count;
-}
-
-/// visit(support, node, offset into the reactions)
-template <class Visit>
-void for_each_support(const Model& model, const Visit& visit) {
-  std::size_t offset = 0;
-  for (const auto& support : model.supports) {
-    for (const Index node : support.nodes) {
-      visit(support, 3 * static_cast<std::size_t>(node), offset);
-      offset += 3;
-    }
-  }
-}
 
 }  // namespace
 
@@ -39,7 +22,7 @@ ExplicitSolver::ExplicitSolver(const Model& model, Assembly& assembly, double st
   state_.displacement.assign(values, 0);
   state_.velocity.assign(values, 0);
   state_.force.assign(values, 0);
-  state_.reactions.assign(3 * supported_nodes(model), 0);
+  state_.reactions.assign(reaction_count(model), 0);
   for (const auto& initial : model.initial_velocities)
     for (const Index node : initial.nodes) Vector3::Map(&state_.velocity[3 * node]) = initial.velocity;
   inverse_mass_.resize(model.node_masses.size());
@@ -53,6 +36,22 @@ void ExplicitSolver::advance(double time, double length) {
   const auto steps = std::max(1.0, std::ceil(length / longest_step_ * (1 - 1e-9)));
   const double step_length = length / steps;
   for (int k = 0; k < steps; ++k) step(time + k * step_length, step_length);
+}
+
+void ExplicitSolver::archive(core::StateArchive& archive) {
+  archive.values("displacement", state_.displacement);
+  archive.values("velocity", state_.velocity);
+  archive.values("force", state_.force);
+  archive.values("reactions", state_.reactions);
+  archive.count("steps", state_.steps);
+  std::vector<double> numbers{state_.previous_step, state_.kick, state_.damped};
+  for (const auto& work : state_.works) numbers.insert(numbers.end(), {work.done, work.pending});
+  archive.values("times_and_works", numbers);
+  state_.previous_step = numbers[0];
+  state_.kick = numbers[1];
+  state_.damped = numbers[2];
+  for (std::size_t k = 0; k < state_.works.size(); ++k)
+    state_.works[k] = {numbers[3 + 2 * k], numbers[4 + 2 * k]};
 }
 
 void ExplicitSolver::step(double time, double step) {
@@ -77,7 +76,7 @@ void ExplicitSolver::evaluate_forces(double time) noexcept {
 void ExplicitSolver::evaluate_own_forces(double time, std::span<double> force) noexcept {
   assembly_.internal_force(state_.displacement, force);
   if (model_.damping.stiffness > 0) subtract_stiffness_damping(force);
-  add_external_forces(time, force);
+  add_external_force(model_, {}, {.time = time}, force);
 }
 
 // The step evaluates these forces once more: state_.force has to stay that of the last step, which the energy
@@ -105,18 +104,6 @@ void ExplicitSolver::subtract_stiffness_damping(std::span<double> force) noexcep
     damping_force_[i] *= model_.damping.stiffness;
     force[i] -= damping_force_[i];
   });
-}
-
-void ExplicitSolver::add_external_forces(double time, std::span<double> force) const noexcept {
-  if (model_.gravity) {
-    core::parallel_for(model_.nodes(), [&](std::int64_t i) {
-      Vector3::Map(&force[3 * i]) += model_.node_masses[i] * *model_.gravity;
-    });
-  }
-  for (const auto& load : model_.loads) {
-    const Vector3 applied = load.history.at(time) * load.force;
-    for (const Index node : load.nodes) Vector3::Map(&force[3 * node]) += applied;
-  }
 }
 
 void ExplicitSolver::impose_supports(double time, double step) noexcept {

@@ -67,6 +67,8 @@ class ExplicitSolver final : public Integrator {
   /// step, at time 0.
   EnergyBalance balance() override;
   void save() override { saved_ = state_; }
+  void archive(core::StateArchive& archive) override;
+  const char* method() const override { return "fem_solver explicit"; }
   void restore() override { state_ = saved_; }
 
   /// One step from `time` to `time + step` (s).
@@ -82,7 +84,6 @@ class ExplicitSolver final : public Integrator {
   /// Forces of the structure itself and of its loads.
   void evaluate_own_forces(double time, std::span<double> force) noexcept;
   void subtract_stiffness_damping(std::span<double> force) noexcept;
-  void add_external_forces(double time, std::span<double> force) const noexcept;
   /// Replaces the force on supported directions by the one that leads to their prescribed position at the
   /// step's end.
   void impose_supports(double time, double step) noexcept;

@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "core/output/checkpoint.hpp"
 #include "fem_solver/model/model.hpp"
 
 namespace talus::fem {
@@ -46,6 +47,11 @@ class Integrator {
 
   virtual void save() = 0;     ///< remembers the present state
   virtual void restore() = 0;  ///< goes back to the state remembered last
+
+  /// The whole present state, to write it to a file or to take it from one.
+  virtual void archive(core::StateArchive& archive) = 0;
+  /// Whose state that is: states of different methods do not fit each other.
+  virtual const char* method() const = 0;
 
   InterfaceForce& interface() { return interface_; }
   double last_output_time = -1;  ///< s; told by errors; negative: none

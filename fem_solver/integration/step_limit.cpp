@@ -130,17 +130,22 @@ void add_part_bounds(const Part& part, const TwoNodeBatch<Compression>& batch,
 std::vector<StepBound> step_bounds(Assembly& assembly, std::span<const double> displacement) {
   const Model& model = assembly.model();
   std::vector<StepBound> bounds;
-  const double frequency = largest_frequency(assembly, displacement);
-  if (frequency > 0)
-    bounds.push_back(
-        {"highest frequency of the structure", stable_step(frequency, model.damping),
-         fmt::format(
-             "(2/w)(sqrt(1 + xi^2) - xi) with w = {:.6g} 1/s, xi = {:.3g}, from the stiffness of the taut "
-             "structure with its geometric part",
-             frequency, 0.5 * model.damping.stiffness * frequency)});
   for (const auto& part : model.parts)
     std::visit([&](const auto& batch) { add_part_bounds(part, batch, displacement, model.damping, bounds); },
                part.elements);
+  std::ranges::stable_sort(bounds, {}, &StepBound::seconds);
+  const double frequency = largest_frequency(assembly, displacement);
+  if (frequency == 0) return bounds;
+  const std::string tightest = bounds.empty() ? ""
+                                              : fmt::format("; its tightest elements: {}, {}",
+                                                            bounds.front().name, bounds.front().reason);
+  bounds.insert(
+      bounds.begin(),
+      {"highest frequency of the structure", stable_step(frequency, model.damping),
+       fmt::format(
+           "(2/w)(sqrt(1 + xi^2) - xi) with w = {:.6g} 1/s, xi = {:.3g}, from the stiffness of the taut "
+           "structure with its geometric part{}",
+           frequency, 0.5 * model.damping.stiffness * frequency, tightest)});
   return bounds;
 }
 

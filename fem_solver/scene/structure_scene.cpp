@@ -51,6 +51,24 @@ void describe(core::Fields& fields, WeldScene& weld) {
 
 void describe(core::Fields&, ExplicitScene&) {}
 
+void describe(core::Fields& fields, ImplicitScene& method) {
+  fields.with_default(
+      "spectral_radius", method.spectral_radius,
+      {.range = core::fraction,
+       .help = "at infinite frequency: 1 keeps every motion, 0 removes what a step cannot resolve"});
+  fields.with_default(
+      "tolerance", method.tolerance,
+      {.range = {.low = 1e-14, .high = 1e-2}, .help = "largest residual force over the largest force"});
+}
+
+void describe(core::Fields& fields, StaticScene& method) {
+  fields.with_default("steps", method.steps,
+                      {.range = {.low = 1, .high = 1e6}, .help = "load steps over time.end"});
+  fields.with_default(
+      "tolerance", method.tolerance,
+      {.range = {.low = 1e-14, .high = 1e-2}, .help = "largest residual force over the largest force"});
+}
+
 void describe(core::Fields& fields, StructureScene& structure) {
   fields.optional("solver", structure.solver,
                   {.help = "another program that plays the structure's part, e.g. my_solver.py"});
@@ -65,7 +83,9 @@ void describe(core::Fields& fields, StructureScene& structure) {
   fields.optional("gravity", structure.gravity, {.unit = "m/s^2", .help = "acceleration of free fall"});
   fields.section("damping", structure.damping, "Rayleigh damping of all parts");
   fields.one_of(structure.method,
-                {{"explicit", "central differences; what a scene gets that names no method"}});
+                {{"explicit", "central differences; what a scene gets that names no method"},
+                 {"implicit", "generalised-alpha method with Newton's iteration"},
+                 {"static", "equilibrium; what has no `over_time` grows linearly up to time.end"}});
   fields.optional("step", structure.step,
                   {.unit = "s",
                    .range = core::positive,

@@ -49,7 +49,22 @@ void describe(core::Fields& fields, WeldScene& weld);
 /// Central differences.
 struct ExplicitScene {};
 void describe(core::Fields& fields, ExplicitScene& method);
-using MethodScene = std::variant<std::monostate, ExplicitScene>;
+
+/// Generalised-alpha method.
+struct ImplicitScene {
+  double spectral_radius = 0.8;
+  double tolerance = 1e-9;
+};
+void describe(core::Fields& fields, ImplicitScene& method);
+
+/// Equilibrium under loads that grow over the run.
+struct StaticScene {
+  std::int64_t steps = 10;
+  double tolerance = 1e-9;
+};
+void describe(core::Fields& fields, StaticScene& method);
+
+using MethodScene = std::variant<std::monostate, ExplicitScene, ImplicitScene, StaticScene>;
 
 struct StructureScene {
   std::optional<std::string> solver;

@@ -149,12 +149,12 @@ TEST_CASE("a reaction at rest is the weight it carries") {
 
 TEST_CASE("one, two and four threads give the same bits") {
   const auto run_with = [](int threads) {
-    Model model = tests::net<CableBatch>(wire, 0.1, 60);
+    Model model = tests::net<CableBatch>(wire, 0.1, 30);
     model.damping = {.mass = 20, .stiffness = 1e-7};
     model.gravity = Vector3(0, 0, -9.81);
     talus::core::set_thread_count(threads);
     Run run(std::move(model), 1e-4);
-    for (Index i = 0; i < 300; ++i) run.solver.state().velocity[5000 + i] = std::sin(i);
+    for (Index i = 0; i < 300; ++i) run.solver.state().velocity[900 + i] = std::sin(i);
     run.steps(100);
     talus::core::set_thread_count(1);
     return run.solver.state();

@@ -1,5 +1,6 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
-#include <numbers>
+#include <filesystem>
 
 #include "core/scene/reader.hpp"
 #include "fem_solver/app/structure.hpp"
@@ -112,8 +113,44 @@ TEST_CASE("bad structures get complaints that name the entity and where it is") 
         "a cable needs a shape made of lines");
 }
 
-TEST_CASE("the example of a hanging net can be built") {
-  const auto file = core::SceneFile::load(TALUS_SOURCE_DIR "/configs/examples/hanging_net.yaml");
-  const Structure structure(read_structural_scene(file));
-  CHECK(structure.model().nodes() == 121);
+TEST_CASE("the scenes of structures alone can be built and take their first steps") {
+  for (const std::string name : {"examples/hanging_net", "examples/hanging_net_implicit",
+                                 "examples/loaded_net_static", "hard/snapping_net"}) {
+    INFO(name);
+    const auto file = core::SceneFile::load(TALUS_SOURCE_DIR "/configs/" + name + ".yaml");
+    Structure structure(read_structural_scene(file));
+    CHECK(structure.model().nodes() == 121);
+    structure.integrator().advance(0, structure.step());
+    CHECK(structure.integrator().balance().elastic.size() == 1);
+  }
+}
+
+TEST_CASE("a run split by a checkpoint in a file is bitwise the run in one piece, for every method") {
+  const auto folder = std::filesystem::temp_directory_path() / "talus_fem_checkpoint_test";
+  std::filesystem::create_directories(folder);
+  const std::string loaded =
+      net + "  supports: [{nodes: net.rim, fix: xyz}]\n  loads: [{at: [1, 1, 0], force: [0, 0, -500]}]\n";
+  for (const std::string method :
+       {"  explicit: {}\n", "  implicit: {}\n  step: 1 ms\n", "  static: {steps: 10}\n"}) {
+    const StructuralScene read = scene(loaded + method);
+    Structure whole(read), first(read), second(read);
+    for (int k = 0; k < 6; ++k) whole.integrator().advance(0.1 * k, 0.1);
+    for (int k = 0; k < 3; ++k) first.integrator().advance(0.1 * k, 0.1);
+    first.write_checkpoint(folder / "checkpoint.h5");
+    second.read_checkpoint(folder / "checkpoint.h5");
+    for (int k = 3; k < 6; ++k) second.integrator().advance(0.1 * k, 0.1);
+    CHECK(std::ranges::equal(second.integrator().displacement(), whole.integrator().displacement()));
+    CHECK(std::ranges::equal(second.integrator().reactions(), whole.integrator().reactions()));
+    CHECK(second.integrator().balance().loads == whole.integrator().balance().loads);
+  }
+  Structure other(scene(net + "  static: {}\n"));
+  CHECK_THROWS_WITH(Structure(scene(loaded)).read_checkpoint(folder / "checkpoint.h5"),
+                    Catch::Contains("is a checkpoint of 'fem_solver static', not of 'fem_solver explicit'"));
+  CHECK_THROWS_WITH(other.read_checkpoint(folder / "checkpoint.h5"),
+                    Catch::Contains("it belongs to another scene"));
+  std::filesystem::remove_all(folder);
+}
+
+TEST_CASE("an implicit run needs a step") {
+  CHECK_THAT(complaint(line + "  implicit: {}\n"), Catch::Contains("needs `structure.step` or `time.step`"));
 }

@@ -1,0 +1,60 @@
+#include "fem_solver/integration/external_force.hpp"
+
+#include "core/parallel.hpp"
+
+namespace talus::fem {
+
+void add_external_force(const Model& model, const InterfaceForce& interface, const LoadTime& when,
+                        std::span<double> force) noexcept {
+  if (model.gravity) {
+    const Vector3 gravity = when.ramp * *model.gravity;
+    core::parallel_for(model.nodes(), [&](std::int64_t node) {
+      Vector3::Map(&force[3 * node]) += model.node_masses[node] * gravity;
+    });
+  }
+  for (const auto& load : model.loads) {
+    const Vector3 nodal = load_factor(load.history, when) * load.force;
+    for (const Index node : load.nodes) Vector3::Map(&force[3 * node]) += nodal;
+  }
+  for (std::size_t k = 0; k < interface.nodes.size(); ++k)
+    Vector3::Map(&force[3 * interface.nodes[k]]) += Vector3::Map(&interface.force[3 * k]);
+}
+
+void add_works(const Model& model, const InterfaceForce& interface, const LoadSpan& span,
+               std::span<const double> change, ExternalWorks& works) noexcept {
+  const auto move_of = [&](Index node) { return Vector3::Map(&change[3 * static_cast<std::size_t>(node)]); };
+  if (model.gravity) {
+    const Vector3 gravity = 0.5 * (span.before.ramp + span.after.ramp) * *model.gravity;
+    for (Index node = 0; node < model.nodes(); ++node)
+      works.gravity += model.node_masses[node] * gravity.dot(move_of(node));
+  }
+  for (const auto& load : model.loads) {
+    const double factor =
+        0.5 * (load_factor(load.history, span.before) + load_factor(load.history, span.after));
+    for (const Index node : load.nodes) works.loads += factor * load.force.dot(move_of(node));
+  }
+  for (std::size_t k = 0; k < interface.nodes.size(); ++k)
+    works.interface += Vector3::Map(&interface.force[3 * k]).dot(move_of(interface.nodes[k]));
+}
+
+void place_supports(const Model& model, const LoadTime& when, std::span<double> displacement) noexcept {
+  for_each_support(model, [&](const Support& support, std::size_t dof, std::size_t) {
+    const Vector3 target = load_factor(support.history, when) * support.displacement;
+    for (std::size_t c = 0; c < 3; ++c)
+      if (support.fixed[c]) displacement[dof + c] = target[static_cast<int>(c)];
+  });
+}
+
+void archive(core::StateArchive& archive, ExternalWorks& works) {
+  std::vector<double> numbers{works.gravity, works.loads, works.interface, works.supports};
+  archive.values("works", numbers);
+  works = {numbers[0], numbers[1], numbers[2], numbers[3]};
+}
+
+std::size_t reaction_count(const Model& model) {
+  std::size_t count = 0;
+  for (const auto& support : model.supports) count += 3 * support.nodes.size();
+  return count;
+}
+
+}  // namespace talus::fem

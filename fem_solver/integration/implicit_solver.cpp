@@ -1,0 +1,204 @@
+#include "fem_solver/integration/implicit_solver.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/errors.hpp"
+#include "fem_solver/integration/external_force.hpp"
+
+namespace talus::fem {
+namespace {
+
+constexpr double smallest_share_of_step = 1.0 / 1024;
+
+}  // namespace
+
+ImplicitSolver::ImplicitSolver(const Model& model, Assembly& assembly, const ImplicitOptions& options)
+    : model_(model), assembly_(assembly), options_(options), newton_(model) {
+  const double r = options.spectral_radius;
+  alpha_m_ = (2 * r - 1) / (r + 1);
+  alpha_f_ = r / (r + 1);
+  gamma_ = 0.5 - alpha_m_ + alpha_f_;
+  beta_ = 0.25 * (1 - alpha_m_ + alpha_f_) * (1 - alpha_m_ + alpha_f_);
+  const std::vector<double> zero(model.reference.size(), 0.0);
+  state_ = {.displacement = zero,
+            .velocity = zero,
+            .acceleration = zero,
+            .force = zero,
+            .reactions = std::vector<double>(reaction_count(model), 0.0)};
+  for (const auto& initial : model.initial_velocities)
+    for (const Index node : initial.nodes) Vector3::Map(&state_.velocity[3 * node]) = initial.velocity;
+  mean_ = product_ = zero;
+}
+
+void ImplicitSolver::advance(double time, double length) {
+  if (state_.steps == 0) start(time);
+  reports_.clear();
+  const double end = time + length, smallest = smallest_share_of_step * options_.step;
+  const double whole = length / std::max(1.0, std::ceil(length / options_.step * (1 - 1e-9)));
+  double share = whole;
+  for (double now = time; now < end - 0.5 * smallest;) {
+    const Step step{now, now + share > end - 0.5 * smallest ? end - now : share};
+    if (take(step)) {
+      now += step.length;
+      continue;
+    }
+    share *= 0.5;
+    if (share < smallest) report_failure(step);
+  }
+}
+
+void ImplicitSolver::archive(core::StateArchive& archive) {
+  archive.values("displacement", state_.displacement);
+  archive.values("velocity", state_.velocity);
+  archive.values("acceleration", state_.acceleration);
+  archive.values("force", state_.force);
+  archive.values("reactions", state_.reactions);
+  archive.count("steps", state_.steps);
+  std::vector<double> damped{state_.damped};
+  archive.values("damped", damped);
+  state_.damped = damped.front();
+  fem::archive(archive, state_.works);
+}
+
+/// The acceleration the first step starts from.
+void ImplicitSolver::start(double time) {
+  before_ = state_;
+  total_force(time, state_.displacement, state_.force);
+  std::vector<double> sum = state_.force;
+  add_damping(-1, state_.velocity, sum);
+  for (Index k = 0; k < newton_.equations().count(); ++k) {
+    const auto i = static_cast<std::size_t>(newton_.equations().direction(k));
+    state_.acceleration[i] = sum[i] / model_.node_masses[i / 3];
+  }
+}
+
+bool ImplicitSolver::take(const Step& step) {
+  before_ = state_;
+  predict(step);
+  reports_.push_back(newton_.solve(system(step), options_.newton, state_.displacement));
+  if (!reports_.back().converged) {
+    state_ = before_;
+    return false;
+  }
+  update_rates(step.length, state_.displacement);
+  total_force(step.time + step.length, state_.displacement, state_.force);
+  account(step);
+  ++state_.steps;
+  return true;
+}
+
+/// Free directions go on with constant acceleration, supported ones to where they are led.
+void ImplicitSolver::predict(const Step& step) {
+  for (std::size_t i = 0; i < state_.displacement.size(); ++i)
+    state_.displacement[i] +=
+        step.length * (before_.velocity[i] + 0.5 * step.length * before_.acceleration[i]);
+  place_supports(model_, {.time = step.time + step.length}, state_.displacement);
+}
+
+void ImplicitSolver::update_rates(double dt, std::span<const double> displacement) {
+  for (std::size_t i = 0; i < displacement.size(); ++i) {
+    const double v0 = before_.velocity[i], a0 = before_.acceleration[i];
+    const double advance = displacement[i] - before_.displacement[i] - dt * v0;
+    state_.acceleration[i] = advance / (beta_ * dt * dt) - (0.5 / beta_ - 1) * a0;
+    state_.velocity[i] = v0 + dt * ((1 - gamma_) * a0 + gamma_ * state_.acceleration[i]);
+  }
+}
+
+void ImplicitSolver::residual(const Step& step, std::span<const double> displacement,
+                              std::span<double> residual) {
+  update_rates(step.length, displacement);
+  total_force(step.time + step.length, displacement, residual);
+  force_scale_ = assembly_.largest_element_force();
+  for (std::size_t i = 0; i < residual.size(); ++i) {
+    const double mean_acceleration =
+        (1 - alpha_m_) * state_.acceleration[i] + alpha_m_ * before_.acceleration[i];
+    const double inertia = model_.node_masses[i / 3] * mean_acceleration;
+    force_scale_ = std::max({force_scale_, std::abs(residual[i]), std::abs(inertia)});
+    residual[i] = (1 - alpha_f_) * residual[i] + alpha_f_ * before_.force[i] - inertia;
+    mean_[i] = (1 - alpha_f_) * state_.velocity[i] + alpha_f_ * before_.velocity[i];
+  }
+  add_damping(-1, mean_, residual);
+}
+
+void ImplicitSolver::add_damping(double factor, std::span<const double> velocity, std::span<double> out) {
+  const Damping& damping = model_.damping;
+  if (damping.mass > 0)
+    for (std::size_t i = 0; i < out.size(); ++i)
+      out[i] += factor * damping.mass * model_.node_masses[i / 3] * velocity[i];
+  if (damping.stiffness > 0) {
+    assembly_.stiffness_product(before_.displacement, velocity, product_);
+    for (std::size_t i = 0; i < out.size(); ++i) out[i] += factor * damping.stiffness * product_[i];
+  }
+}
+
+NewtonSystem ImplicitSolver::system(const Step& step) {
+  const double dt = step.length, rate = (1 - alpha_f_) * gamma_ / (beta_ * dt);
+  NewtonSystem system{
+      .residual = [this, step](std::span<const double> u, std::span<double> r) { residual(step, u, r); },
+      .force_scale = [this] { return force_scale_; },
+      .stiffness_factor = 1 - alpha_f_ + rate * model_.damping.stiffness,
+      .diagonal = std::vector<double>(model_.reference.size())};
+  const double mass_factor = (1 - alpha_m_) / (beta_ * dt * dt) + rate * model_.damping.mass;
+  for (std::size_t i = 0; i < system.diagonal.size(); ++i)
+    system.diagonal[i] = mass_factor * model_.node_masses[i / 3];
+  return system;
+}
+
+/// External minus internal forces.
+void ImplicitSolver::total_force(double time, std::span<const double> displacement, std::span<double> force) {
+  assembly_.internal_force(displacement, force);
+  add_external_force(model_, interface_, {.time = time}, force);
+}
+
+/// Reactions, works by the trapezoidal rule, and what damping took.
+void ImplicitSolver::account(const Step& step) {
+  const std::size_t n = model_.reference.size();
+  std::vector<double> change(n), needed(n, 0.0);
+  add_damping(1, state_.velocity, needed);
+  for (std::size_t i = 0; i < n; ++i) {
+    change[i] = state_.displacement[i] - before_.displacement[i];
+    mean_[i] = 0.5 * (state_.velocity[i] + before_.velocity[i]);
+    needed[i] += model_.node_masses[i / 3] * state_.acceleration[i] - state_.force[i];
+  }
+  for_each_support(model_, [&](const Support& support, std::size_t dof, std::size_t offset) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      if (!support.fixed[c]) continue;
+      state_.works.supports += 0.5 * (state_.reactions[offset + c] + needed[dof + c]) * change[dof + c];
+      state_.reactions[offset + c] = needed[dof + c];
+      needed[dof + c] = 0;
+    }
+  });
+  add_works(model_, interface_, {{.time = step.time}, {.time = step.time + step.length}}, change,
+            state_.works);
+  std::vector<double> damping(n, 0.0);
+  add_damping(1, mean_, damping);
+  for (std::size_t i = 0; i < n; ++i) state_.damped += damping[i] * change[i];
+}
+
+EnergyBalance ImplicitSolver::balance() {
+  EnergyBalance balance;
+  for (std::size_t i = 0; i < state_.velocity.size(); ++i)
+    balance.kinetic += 0.5 * model_.node_masses[i / 3] * state_.velocity[i] * state_.velocity[i];
+  for (const auto& part : model_.parts)
+    balance.elastic.push_back(
+        std::visit([&](const auto& batch) { return batch.energy(state_.displacement); }, part.elements));
+  balance.gravity = -state_.works.gravity;
+  balance.bulk_damping = state_.damped;
+  balance.loads = state_.works.loads;
+  balance.supports = state_.works.supports;
+  balance.interface = state_.works.interface;
+  return balance;
+}
+
+void ImplicitSolver::report_failure(const Step& step) const {
+  throw core::NumericalError(
+      {.what = "Newton's iteration does not converge, even for 1/1024 of the step",
+       .entity = "relative residual of " + node_name(model_, reports_.back().worst_direction / 3),
+       .step = state_.steps,
+       .time = step.time,
+       .value = reports_.back().residuals.back(),
+       .last_output_time = last_output_time});
+}
+
+}  // namespace talus::fem

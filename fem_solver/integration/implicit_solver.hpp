@@ -1,0 +1,92 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "fem_solver/assembly/assembly.hpp"
+#include "fem_solver/integration/external_force.hpp"
+#include "fem_solver/integration/integrator.hpp"
+#include "fem_solver/integration/newton.hpp"
+
+namespace talus::fem {
+
+struct ImplicitOptions {
+  double step = 0;  ///< s; the longest one advance() takes, halved where Newton fails
+  double spectral_radius =
+      1;  ///< at infinite frequency: 1 keeps every motion, 0 removes what a step cannot resolve
+  NewtonOptions newton{};
+};
+
+/// Generalised-alpha method with Newton's iteration. Source: Chung and Hulbert, J. Appl. Mech. 60 (1993), eq.
+/// 11-19 and 25, with the forces of both ends of a step combined.
+///
+///     M ((1 - am) a1 + am a0) + C ((1 - af) v1 + af v0) = (1 - af) F(u1) + af F(u0)
+///     u1 = u0 + dt v0 + dt^2 ((1/2 - b) a0 + b a1)      v1 = v0 + dt ((1 - g) a0 + g a1)
+///     am = (2 r - 1)/(r + 1)   af = r/(r + 1)   g = 1/2 - am + af   b = (1 - am + af)^2/4
+///
+/// | symbol   | variable        | meaning                                                        | unit  |
+/// |----------|-----------------|----------------------------------------------------------------|-------|
+/// | r        | spectral_radius | of the step's amplification at infinite frequency, 0 to 1       | 1     |
+/// | u, v, a  |                 | displacement, velocity, acceleration; 0 at the start, 1 at the end | m ...
+/// | | M, C     |                 | lumped mass; Rayleigh damping a M + b K with K of the step's start | kg
+/// ... | | F        |                 | external minus internal forces                                 | N |
+///
+/// Second order, unconditionally stable for linear structures. At r = 1 it is the trapezoidal rule.
+/// Proven by: "the trapezoidal rule turns a linear oscillator by its own angle" (implicit_test.cpp).
+class ImplicitSolver final : public Integrator {
+ public:
+  /// @pre model and assembly outlive the solver
+  ImplicitSolver(const Model& model, Assembly& assembly, const ImplicitOptions& options);
+
+  void advance(double time, double length) override;
+  std::span<const double> displacement() const override { return state_.displacement; }
+  std::span<const double> velocity() const override { return state_.velocity; }
+  std::span<const double> reactions() const override { return state_.reactions; }
+  /// The balance at the present time; works by the trapezoidal rule over each step.
+  EnergyBalance balance() override;
+  void save() override { saved_ = state_; }
+  void archive(core::StateArchive& archive) override;
+  const char* method() const override { return "fem_solver implicit"; }
+  void restore() override { state_ = saved_; }
+
+  struct State {
+    std::vector<double> displacement, velocity, acceleration;
+    std::vector<double> force;      ///< N; external minus internal at the present time
+    std::vector<double> reactions;  ///< N; 3 a supported node
+    ExternalWorks works{};          ///< J
+    double damped = 0;              ///< J
+    std::int64_t steps = 0;
+    bool operator==(const State&) const = default;
+  };
+  State& state() { return state_; }
+  const std::vector<NewtonReport>& reports() const { return reports_; }
+
+ private:
+  struct Step {
+    double time, length;
+  };
+  void start(double time);
+  bool take(const Step& step);
+  void predict(const Step& step);
+  void update_rates(double length, std::span<const double> displacement);
+  void residual(const Step& step, std::span<const double> displacement, std::span<double> residual);
+  NewtonSystem system(const Step& step);
+  /// out += factor * C * velocity
+  void add_damping(double factor, std::span<const double> velocity, std::span<double> out);
+  void total_force(double time, std::span<const double> displacement, std::span<double> force);
+  void account(const Step& step);
+  [[noreturn]] void report_failure(const Step& step) const;
+
+  const Model& model_;
+  Assembly& assembly_;
+  ImplicitOptions options_;
+  double alpha_m_, alpha_f_, gamma_, beta_;
+  Newton newton_;
+  State state_, saved_;
+  State before_;                        ///< the start of the step in progress
+  std::vector<double> mean_, product_;  ///< velocity inside a step, and stiffness times it
+  double force_scale_ = 0;
+  std::vector<NewtonReport> reports_;
+};
+
+}  // namespace talus::fem

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+
+#include "fem_solver/assembly/sparse_stiffness.hpp"
+
+namespace talus::fem {
+
+/// Sparse Cholesky factorisation (CHOLMOD) of symmetric matrices that all have the same
+/// pattern.
+class LinearSolver {
+ public:
+  LinearSolver();
+  ~LinearSolver();
+
+  /// @param matrix lower half. @returns false where it is not positive definite, or so nearly singular that a
+  /// solution would be noise
+  bool factorise(const SparseMatrix& matrix);
+  /// Factorises matrix + shift I with the smallest shift, in powers of ten from 1e-8 of the largest diagonal
+  /// entry, that makes it positive definite. @returns the shift; 0: none was needed
+  double factorise_shifted(SparseMatrix matrix);
+  /// @pre factorised
+  Eigen::VectorXd solve(const Eigen::VectorXd& right) const;
+
+ private:
+  struct Factor;
+  std::unique_ptr<Factor> factor_;
+};
+
+}  // namespace talus::fem

@@ -1,0 +1,71 @@
+#include "fem_solver/integration/newton.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace talus::fem {
+namespace {
+
+constexpr double steepest_uphill = 0.8;
+constexpr int most_cuts = 40;
+
+}  // namespace
+
+Newton::Newton(const Model& model)
+    : equations_(model),
+      stiffness_(model, equations_),
+      residual_(model.reference.size()),
+      trial_(model.reference.size()) {}
+
+NewtonReport Newton::solve(const NewtonSystem& system, const NewtonOptions& options,
+                           std::vector<double>& displacement) {
+  NewtonReport report;
+  system.residual(displacement, residual_);
+  for (int iteration = 0; !measure(system, options, displacement, report); ++iteration) {
+    if (iteration == options.most_iterations || !std::isfinite(report.residuals.back())) return report;
+    const double shift = solver_.factorise_shifted(
+        stiffness_.assemble(displacement, system.stiffness_factor, system.diagonal));
+    const Eigen::VectorXd step = solver_.solve(equations_.gather(residual_));
+    if (shift > 0) ++report.shifted;
+    if (search_along(system, step, displacement)) ++report.cut;
+  }
+  report.converged = true;
+  return report;
+}
+
+/// Notes the largest residual. @returns whether it is small enough
+bool Newton::measure(const NewtonSystem& system, const NewtonOptions& options, const std::vector<double>&,
+                     NewtonReport& report) {
+  double largest = 0;
+  for (Index k = 0; k < equations_.count(); ++k) {
+    const double size = std::abs(residual_[static_cast<std::size_t>(equations_.direction(k))]);
+    if (size <= largest) continue;
+    largest = size;
+    report.worst_direction = equations_.direction(k);
+  }
+  const double scale = system.force_scale();
+  report.residuals.push_back(largest == 0 ? 0 : largest / scale);
+  return report.residuals.back() <= options.tolerance;
+}
+
+/// Goes along `step` as far as the slope allows and leaves the residual there. @returns whether that was less
+/// than the whole step
+bool Newton::search_along(const NewtonSystem& system, const Eigen::VectorXd& step,
+                          std::vector<double>& displacement) {
+  const double slope_at_start = equations_.gather(residual_).dot(step);
+  double share = 1;
+  for (int cut = 0;; ++cut) {
+    trial_ = displacement;
+    equations_.scatter_add(share, step, trial_);
+    system.residual(trial_, residual_);
+    const double slope = equations_.gather(residual_).dot(step);
+    if ((std::isfinite(slope) && slope >= -steepest_uphill * slope_at_start) || cut == most_cuts) {
+      std::swap(displacement, trial_);
+      return cut > 0;
+    }
+    const double secant = slope_at_start / (slope_at_start - slope);
+    share *= std::isfinite(secant) ? std::clamp(secant, 0.1, 0.5) : 0.1;
+  }
+}
+
+}  // namespace talus::fem

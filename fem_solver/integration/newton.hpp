@@ -1,0 +1,63 @@
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "fem_solver/assembly/sparse_stiffness.hpp"
+#include "fem_solver/integration/linear_solver.hpp"
+
+namespace talus::fem {
+
+/// The equations of one load or time step: residual(u) = 0 in the free directions, with the derivative
+/// -(stiffness_factor d2U/du2 + diagonal).
+struct NewtonSystem {
+  std::function<void(std::span<const double> displacement, std::span<double> residual)>
+      residual;                         ///< N, 3 a node
+  std::function<double()> force_scale;  ///< N; size of the forces that balance in the residual computed last
+  double stiffness_factor = 1;
+  std::vector<double> diagonal;  ///< N/m, 3 a node
+};
+
+struct NewtonOptions {
+  double tolerance = 1e-10;  ///< largest residual over force_scale
+  int most_iterations = 60;
+};
+
+struct NewtonReport {
+  bool converged = false;
+  std::vector<double> residuals;  ///< largest, over force_scale; the first before any iteration
+  int shifted = 0;                ///< iterations whose tangent was not positive definite and was shifted
+  int cut = 0;                    ///< iterations whose step the line search shortened
+  Index worst_direction = 0;      ///< 3 node + 0, 1, 2
+};
+
+/// Newton's method with a line search. Where the tangent is not positive definite (slack nets, snapping bars)
+/// it is shifted until it is, so that every step goes downhill in energy; the report counts them. The line
+/// search asks for no more than that the slope along the step has not turned steeply uphill, |g(s)| < 0.8
+/// |g(0)|, and so needs no differences of energies.
+class Newton {
+ public:
+  explicit Newton(const Model& model);
+
+  /// Changes the free directions of `displacement` until the residual vanishes; supported ones stay as given.
+  NewtonReport solve(const NewtonSystem& system, const NewtonOptions& options,
+                     std::vector<double>& displacement);
+
+  const Equations& equations() const { return equations_; }
+  SparseStiffness& stiffness() { return stiffness_; }
+
+ private:
+  bool measure(const NewtonSystem& system, const NewtonOptions& options,
+               const std::vector<double>& displacement, NewtonReport& report);
+  bool search_along(const NewtonSystem& system, const Eigen::VectorXd& step,
+                    std::vector<double>& displacement);
+
+  Equations equations_;
+  SparseStiffness stiffness_;
+  LinearSolver solver_;
+  std::vector<double> residual_, trial_;
+};
+
+}  // namespace talus::fem

@@ -1,0 +1,160 @@
+#include "fem_solver/integration/static_solver.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/errors.hpp"
+#include "core/program/log.hpp"
+#include "fem_solver/integration/mechanism.hpp"
+
+namespace talus::fem {
+namespace {
+
+constexpr double smallest_share_of_step = 1.0 / 1024;
+constexpr std::size_t most_nodes_named = 4;
+
+LoadTime load_time(double time, double end) {
+  return {.time = time, .ramp = time / end};
+}
+
+}  // namespace
+
+StaticSolver::StaticSolver(const Model& model, Assembly& assembly, const StaticOptions& options)
+    : model_(model), assembly_(assembly), options_(options), newton_(model) {
+  state_.displacement.assign(model.reference.size(), 0);
+  state_.reactions.assign(reaction_count(model), 0);
+  velocity_.assign(model.reference.size(), 0);
+  external_.assign(model.reference.size(), 0);
+}
+
+void StaticSolver::advance(double time, double length) {
+  reports_.clear();
+  const double end = time + length, smallest = smallest_share_of_step * options_.step;
+  double share = std::min(length, options_.step);
+  for (double now = time; now < end - 0.5 * smallest;) {
+    const double next = now + share > end - 0.5 * smallest ? end : now + share;
+    const State before = state_;
+    if (equilibrate(next)) {
+      account(before, {load_time(now, options_.end), load_time(next, options_.end)});
+      now = next;
+      continue;
+    }
+    state_ = before;
+    share *= 0.5;
+    if (share < smallest) report_failure(next);
+  }
+  check_for_mechanisms(end);
+}
+
+void StaticSolver::archive(core::StateArchive& archive) {
+  archive.values("displacement", state_.displacement);
+  archive.values("reactions", state_.reactions);
+  fem::archive(archive, state_.works);
+}
+
+bool StaticSolver::equilibrate(double time) {
+  ++steps_;
+  const LoadTime when = load_time(time, options_.end);
+  place_supports(model_, when, state_.displacement);
+  std::ranges::fill(external_, 0.0);
+  add_external_force(model_, interface_, when, external_);
+  const NewtonSystem system{
+      .residual = [&](std::span<const double> u, std::span<double> r) { residual(u, r); },
+      .force_scale = [&] { return force_scale_; },
+      .stiffness_factor = 1,
+      .diagonal = std::vector<double>(model_.reference.size(), 0.0)};
+  reports_.push_back(newton_.solve(system, options_.newton, state_.displacement));
+  return reports_.back().converged;
+}
+
+void StaticSolver::residual(std::span<const double> displacement, std::span<double> residual) {
+  assembly_.internal_force(displacement, residual);
+  force_scale_ = assembly_.largest_element_force();
+  for (std::size_t i = 0; i < residual.size(); ++i) {
+    residual[i] += external_[i];
+    force_scale_ = std::max(force_scale_, std::abs(external_[i]));
+  }
+}
+
+/// Reactions, and the works along the straight line between two equilibria.
+void StaticSolver::account(const State& before, const LoadSpan& span) {
+  std::vector<double> sum(model_.reference.size()), change(model_.reference.size());
+  residual(state_.displacement, sum);
+  std::ranges::transform(state_.displacement, before.displacement, change.begin(), std::minus<>{});
+  for_each_support(model_, [&](const Support& support, std::size_t dof, std::size_t offset) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      if (!support.fixed[c]) continue;
+      state_.reactions[offset + c] = -sum[dof + c];
+      state_.works.supports += 0.5 * (before.reactions[offset + c] - sum[dof + c]) * change[dof + c];
+      sum[dof + c] = 0;
+    }
+  });
+  add_works(model_, interface_, span, change, state_.works);
+}
+
+EnergyBalance StaticSolver::balance() {
+  EnergyBalance balance;
+  for (const auto& part : model_.parts)
+    balance.elastic.push_back(
+        std::visit([&](const auto& batch) { return batch.energy(state_.displacement); }, part.elements));
+  balance.gravity = -state_.works.gravity;
+  balance.loads = state_.works.loads;
+  balance.supports = state_.works.supports;
+  balance.interface = state_.works.interface;
+  return balance;
+}
+
+void StaticSolver::check_for_mechanisms(double time) {
+  const std::vector<double> none(model_.reference.size(), 0.0);
+  const SoftestMotion softest = softest_motion(newton_.stiffness().assemble(state_.displacement, 1, none));
+  if (softest.kind == SoftestMotion::Kind::stiff) return;
+  const std::string nodes = nodes_that_move(softest.motion);
+  if (softest.kind == SoftestMotion::Kind::unstable) {
+    core::log_warning(
+        fmt::format("the equilibrium at {:.6g} s is unstable: the least push moves {}", time, nodes));
+    return;
+  }
+  throw core::NumericalError(
+      {.what = "the structure has an unsupported mechanism, a motion that nothing resists",
+       .entity = "stiffness over the largest, of " + nodes,
+       .step = steps_,
+       .time = time,
+       .value = softest.relative_stiffness,
+       .last_output_time = last_output_time});
+}
+
+/// The nodes that move most, with the direction of their motion.
+std::string StaticSolver::nodes_that_move(const Eigen::VectorXd& motion) const {
+  std::vector<double> nodal(model_.reference.size(), 0.0);
+  newton_.equations().scatter_add(1, motion, nodal);
+  std::vector<Index> order(static_cast<std::size_t>(model_.nodes()));
+  for (Index i = 0; i < model_.nodes(); ++i) order[static_cast<std::size_t>(i)] = i;
+  const auto move_of = [&](Index node) {
+    return Vector3(Vector3::Map(&nodal[3 * static_cast<std::size_t>(node)]));
+  };
+  std::ranges::stable_sort(order, std::ranges::greater{},
+                           [&](Index node) { return move_of(node).squaredNorm(); });
+  std::string text;
+  for (const Index node : order) {
+    if (move_of(node).norm() < 0.1 * move_of(order.front()).norm()) break;
+    const Vector3 direction = move_of(node).normalized();
+    text += fmt::format("{}{} along ({:.2f}, {:.2f}, {:.2f})", text.empty() ? "" : "; ",
+                        node_name(model_, node), direction.x(), direction.y(), direction.z());
+    if (node == order[std::min(order.size(), most_nodes_named) - 1]) break;
+  }
+  return text;
+}
+
+void StaticSolver::report_failure(double time) const {
+  throw core::NumericalError(
+      {.what = "Newton's iteration does not converge, even for 1/1024 of the load step",
+       .entity = "relative residual of " + node_name(model_, reports_.back().worst_direction / 3),
+       .step = steps_,
+       .time = time,
+       .value = reports_.back().residuals.back(),
+       .last_output_time = last_output_time});
+}
+
+}  // namespace talus::fem

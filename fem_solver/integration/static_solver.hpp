@@ -1,0 +1,68 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "fem_solver/assembly/assembly.hpp"
+#include "fem_solver/integration/external_force.hpp"
+#include "fem_solver/integration/integrator.hpp"
+#include "fem_solver/integration/newton.hpp"
+
+namespace talus::fem {
+
+/// What a static run asks of Newton.
+struct StaticOptions {
+  double end = 1;   ///< s; where gravity and loads without a table have grown to their full size
+  double step = 1;  ///< s; of the load, halved where Newton fails
+  NewtonOptions newton{};
+};
+
+/// Equilibrium under loads that grow over the run's time: gravity, loads and prescribed motion without a
+/// table of their own in proportion to time/end, the others as their tables say. A load step whose Newton
+/// iteration fails is halved, down to 1/1024 of the step asked for. At the end of every advance the tangent
+/// must carry every free direction; one that does not is an unsupported mechanism, and an error that names
+/// the nodes that move.
+class StaticSolver final : public Integrator {
+ public:
+  /// @pre model and assembly outlive the solver
+  StaticSolver(const Model& model, Assembly& assembly, const StaticOptions& options);
+
+  void advance(double time, double length) override;
+  std::span<const double> displacement() const override { return state_.displacement; }
+  std::span<const double> velocity() const override { return velocity_; }
+  std::span<const double> reactions() const override { return state_.reactions; }
+  EnergyBalance balance() override;
+  void save() override { saved_ = state_; }
+  void archive(core::StateArchive& archive) override;
+  const char* method() const override { return "fem_solver static"; }
+  void restore() override { state_ = saved_; }
+
+  /// Newton's report of every load step of the last advance.
+  const std::vector<NewtonReport>& reports() const { return reports_; }
+
+ private:
+  struct State {
+    std::vector<double> displacement, reactions;
+    ExternalWorks works;  ///< J
+    bool operator==(const State&) const = default;
+  };
+  bool equilibrate(double time);
+  void residual(std::span<const double> displacement, std::span<double> residual);
+  void account(const State& before, const LoadSpan& span);
+  void check_for_mechanisms(double time);
+  std::string nodes_that_move(const Eigen::VectorXd& motion) const;
+  [[noreturn]] void report_failure(double time) const;
+
+  const Model& model_;
+  Assembly& assembly_;
+  StaticOptions options_;
+  Newton newton_;
+  State state_, saved_;
+  std::vector<double> velocity_;  ///< zero
+  std::vector<double> external_;  ///< N; at the load being solved for
+  double force_scale_ = 0;
+  std::vector<NewtonReport> reports_;
+  std::int64_t steps_ = 0;
+};
+
+}  // namespace talus::fem

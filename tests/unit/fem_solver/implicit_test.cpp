@@ -1,0 +1,106 @@
+#include "fem_solver/integration/implicit_solver.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "fem_solver/integration/explicit.hpp"
+#include "tests/support/structures.hpp"
+
+namespace {
+
+using namespace talus::fem;
+namespace tests = talus::tests;
+
+const AxialPart steel{.section = {.area = 1e-4, .youngs_modulus = 2e11, .prestress = 0}, .density = 7850};
+const AxialPart wire{.section = {.area = 1e-5, .youngs_modulus = 1e9, .prestress = 1e8}, .density = 7850};
+
+Model oscillator() {
+  Model model = tests::chain<BarBatch>(steel, 1, 1);
+  model.supports = {tests::fixed({0}), tests::fixed({1}, {false, true, true})};
+  return model;
+}
+
+double total(const EnergyBalance& b) {
+  double sum = b.kinetic + b.gravity + b.bulk_damping - b.loads - b.supports - b.interface;
+  for (const double elastic : b.elastic) sum += elastic;
+  return sum;
+}
+
+}  // namespace
+
+TEST_CASE("the trapezoidal rule turns a linear oscillator by its own angle") {
+  // Spectral radius 1: tan(phi/2) = w dt/2, amplitude kept, for any step.
+  const Model model = oscillator();
+  const double w = std::sqrt(2e11 * 1e-4 / (7850 * 1e-4 / 2)), step = 3 / w, amplitude = 1e-7;
+  Assembly assembly(model);
+  ImplicitSolver solver(model, assembly,
+                        {.step = step, .spectral_radius = 1, .newton = {.tolerance = 1e-14}});
+  solver.state().displacement[3] = amplitude;
+  const double phi = 2 * std::atan(0.5 * w * step);
+  for (int n = 1; n < 30; ++n) {
+    solver.advance((n - 1) * step, step);
+    CHECK(solver.displacement()[3] == Approx(amplitude * std::cos(n * phi)).margin(1e-5 * amplitude));
+  }
+}
+
+TEST_CASE("a spectral radius of 0 removes what the step cannot resolve, within two steps") {
+  const Model model = oscillator();
+  const double w = std::sqrt(2e11 * 1e-4 / (7850 * 1e-4 / 2)), step = 1e4 / w;
+  Assembly assembly(model);
+  ImplicitSolver solver(model, assembly,
+                        {.step = step, .spectral_radius = 0, .newton = {.tolerance = 1e-14}});
+  solver.state().displacement[3] = 1e-7;
+  for (int n = 0; n < 6; ++n) solver.advance(n * step, step);
+  CHECK(std::abs(solver.displacement()[3]) < 1e-6 * 1e-7);
+}
+
+TEST_CASE("halving the implicit step divides its error by four") {
+  const auto middle_after = [](int steps) {
+    Model model = tests::net<CableBatch>(wire, 0.1, 5);
+    model.gravity = Vector3(0, 0, -9.81);
+    model.damping = {.mass = 10, .stiffness = 1e-5};
+    Assembly assembly(model);
+    const double length = 8e-3;
+    ImplicitSolver solver(model, assembly,
+                          {.step = length / steps, .spectral_radius = 0.8, .newton = {.tolerance = 1e-13}});
+    solver.advance(0, length);
+    return solver.displacement()[3 * 12 + 2];
+  };
+  const double coarse = middle_after(80), middle = middle_after(160), fine = middle_after(320);
+  CHECK((coarse - middle) / (middle - fine) == Approx(4).epsilon(0.1));
+}
+
+TEST_CASE("implicit and explicit integration agree on a net that falls into its prestress") {
+  Model model = tests::net<CableBatch>(wire, 0.1, 7);
+  model.loads = {tests::load(24, {0, 0, -50})};
+  model.damping.mass = 20;
+  const double length = 0.01;
+  Assembly assembly(model);
+  ExplicitSolver explicit_solver(model, assembly, 2e-6);
+  explicit_solver.advance(0, length);
+  ImplicitSolver implicit_solver(model, assembly,
+                                 {.step = 2e-5, .spectral_radius = 1, .newton = {.tolerance = 1e-12}});
+  implicit_solver.advance(0, length);
+  CHECK(implicit_solver.displacement()[3 * 24 + 2] ==
+        Approx(explicit_solver.displacement()[3 * 24 + 2]).epsilon(1e-3));
+}
+
+TEST_CASE("an implicit run closes its energy balance with loads, gravity, damping and moving supports") {
+  Model model = tests::net<CableBatch>(wire, 0.1, 7);
+  model.damping = {.mass = 40, .stiffness = 2e-6};
+  model.gravity = Vector3(0, 1, -9.81);
+  model.loads = {tests::load(24, {5, 0, -20})};
+  model.supports[0].displacement = Vector3(0.01, 0, 0.02);
+  model.supports[0].history.points = {{0, 0}, {0.005, 0}, {0.03, 1}};
+  Assembly assembly(model);
+  ImplicitSolver solver(model, assembly,
+                        {.step = 1e-4, .spectral_radius = 1, .newton = {.tolerance = 1e-12}});
+  const double start = total(solver.balance());
+  double largest_kinetic = 0, worst = 0;
+  for (int k = 0; k < 400; ++k) {
+    solver.advance(k * 1e-4, 1e-4);
+    largest_kinetic = std::max(largest_kinetic, solver.balance().kinetic);
+    worst = std::max(worst, std::abs(total(solver.balance()) - start));
+  }
+  CHECK(worst < 1e-2 * largest_kinetic);
+}
