@@ -1,0 +1,71 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+
+#include "bench/settling/bed.hpp"
+#include "core/program/command_line.hpp"
+
+/// Times the settling of a bed of spheres and prints one JSON object.
+namespace {
+
+using namespace talus;
+
+struct Options {
+  std::int64_t count = 10'000, steps = 5'000, settle = 0;
+  int threads = 1;
+  std::string write_data;
+};
+
+double mean_height(const dem::Spheres& spheres) {
+  double sum = 0;
+  for (const dem::Row& p : spheres.position) sum += p.z;
+  return sum / spheres.size();
+}
+
+double kinetic_energy(const dem::Spheres& spheres) {
+  double sum = 0;
+  for (const dem::Row& v : spheres.velocity) sum += 0.5 * v.w * dem::dot(dem::triple<double>(v), dem::triple<double>(v));
+  return sum;
+}
+
+double contacts_a_sphere(const dem::ParticleSolver& solver) {
+  double touching = 0;
+  for (std::uint8_t t : solver.pair_list().touched()) touching += t;
+  return 2 * touching / solver.spheres().size();
+}
+
+core::ExitCode run(const Options& options) {
+  const bench::Bed bed = bench::make_bed(options.count);
+  if (!options.write_data.empty()) {
+    bench::write_data_file(bed, options.write_data);
+    fmt::print("{:.17g}\n", bed.side);
+    return core::ExitCode::success;
+  }
+  dem::ParticleSolver solver(bench::model_of(bed, options.threads));
+  for (std::int64_t n = 0; n < options.settle; ++n) solver.step();
+  const std::int64_t searches_before = solver.searches();
+  const auto start = std::chrono::steady_clock::now();
+  for (std::int64_t n = 0; n < options.steps; ++n) solver.step();
+  const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const double rate = static_cast<double>(options.count) * static_cast<double>(options.steps) / wall;
+  fmt::print(
+      "{{\"peer\":\"talus\",\"n\":{},\"steps\":{},\"settle\":{},\"threads\":{},\"wall_s\":{:.3f},\"particle_steps_per_s\":{:.0f},"
+      "\"mean_z_m\":{:.5f},\"kinetic_J\":{:.5g},\"mean_contacts\":{:.3f},\"searches\":{}}}\n",
+      options.count, options.steps, options.settle, options.threads, wall, rate, mean_height(solver.spheres()),
+      kinetic_energy(solver.spheres()), contacts_a_sphere(solver), solver.searches() - searches_before);
+  return core::ExitCode::success;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options options;
+  CLI::App app("Times a settling bed of spheres.", "bench_settling");
+  app.add_option("--n", options.count, "spheres")->check(CLI::PositiveNumber);
+  app.add_option("--steps", options.steps, "timed steps")->check(CLI::PositiveNumber);
+  app.add_option("--settle", options.settle, "steps before the timed ones")->check(CLI::NonNegativeNumber);
+  app.add_option("--threads", options.threads, "threads")->check(CLI::PositiveNumber);
+  app.add_option("--write-data", options.write_data, "write the bed as a LIGGGHTS data file and print the box's side instead");
+  return core::run_main(app, argc, argv, [&] { return run(options); });
+}
