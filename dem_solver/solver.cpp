@@ -34,6 +34,7 @@ ParticleSolver::ParticleSolver(ParticleModel model)
   if (model.implicit_contact)
     implicit_contact_ = {.control = *model.implicit_contact, .gravity = model.gravity};
   spheres_.add(model.spheres, law_.rotation());
+  rocks_ = Rocks(model.rocks, model.spheres);
   if (skin_ <= 0 && spheres_.size() > 0) skin_ = default_skin(spheres_);
   place_ = spheres_.places();
   gravity_level_at_start_ = gravity_work_level();
@@ -69,11 +70,10 @@ void ParticleSolver::find_neighbours() {
   std::vector<SlotMove> boundary_moves;
   if (!boundary_.empty())
     boundary_moves = boundary_list_.rebuild(boundary_, spheres_, rebuilt.new_place, skin_);
+  const ContactStage stage = contact_stage();
   std::visit(
       [&](auto& model) {
-        model.pairs.rebuild(pair_list_, rebuilt.moves);
-        model.planes.rebuild(plane_list_, plane_moves);
-        model.boundary.rebuild(boundary_list_, boundary_moves);
+        model.rebuild(stage, {rebuilt.moves, plane_moves, boundary_moves});
       },
       contacts_);
   place_ = spheres_.places();
@@ -97,39 +97,41 @@ void ParticleSolver::clear_loads() noexcept {
   std::ranges::fill(spheres_.torque, Row{});
 }
 
+ContactStage ParticleSolver::contact_stage() noexcept {
+  return {.spheres = spheres_,
+          .planes = planes_,
+          .boundary = boundary_,
+          .pair_list = pair_list_,
+          .plane_list = plane_list_,
+          .boundary_list = boundary_list_,
+          .table = pairs_,
+          .implicit_contact = implicit_contact_ ? &*implicit_contact_ : nullptr,
+          .step = step_,
+          .threads = threads_};
+}
+
 void ParticleSolver::evaluate_contacts() noexcept {
+  const ContactStage stage = contact_stage();
   std::visit(
-      [this]<class Law>(ContactModel<Law>& model) {
-        model.pairs.evaluate({spheres_, pair_list_, pairs_, step_, threads_});
-        if (!planes_.empty())
-          model.planes.evaluate({spheres_, planes_, plane_list_, pairs_, step_, threads_});
-        if (!boundary_.empty()) evaluate_boundary(model.boundary);
-        if constexpr (Law::has_ledger) {
-          work_ += model.pairs.last_work();
-          work_ += model.planes.last_work();
-          work_ += model.boundary.last_work();
-        }
+      [&](auto& model) {
+        const int sweeps = model.evaluate(stage);
+        work_ += model.last_work();
+        if (!implicit_contact_) return;
+        sweeps_ += sweeps;
+        if (sweeps > implicit_contact_->control.most_sweeps) ++unconverged_steps_;
       },
       contacts_);
 }
 
-// After all other loads: implicit contact starts from the velocities they lead to.
-template <class Law>
-void ParticleSolver::evaluate_boundary(BoundaryContacts<Law>& contacts) noexcept {
-  const typename BoundaryContacts<Law>::Context context{spheres_, boundary_, boundary_list_,
-                                                        pairs_,   step_,     threads_};
-  if (!implicit_contact_) {
-    contacts.evaluate(context);
-    return;
-  }
-  const int sweeps = contacts.evaluate_implicitly(context, *implicit_contact_);
-  sweeps_ += sweeps;
-  if (sweeps > implicit_contact_->control.most_sweeps) ++unconverged_steps_;
-}
-
 void ParticleSolver::move_spheres() {
-  const MotionSummary motion =
-      kick_and_drift(spheres_, {.gravity = gravity_, .step = step_, .threads = threads_});
+  const LeapfrogStep how{.gravity = gravity_, .step = step_, .threads = threads_};
+  MotionSummary motion = kick_and_drift(spheres_, how);
+  if (!rocks_.empty()) {
+    rocks_.move(spheres_, place_, how);
+    const double speed = rocks_.place_members(spheres_, place_);
+    motion.largest_speed = std::max(motion.largest_speed, speed);
+    motion.finite = motion.finite && std::isfinite(speed);
+  }
   if (!motion.finite) report_not_finite();
   travelled_ += motion.largest_speed * step_;
 }
@@ -150,21 +152,25 @@ void ParticleSolver::report_not_finite() const {
 }
 
 double ParticleSolver::gravity_work_level() const noexcept {
+  // After a step the positions are one drift ahead of the last forces.
+  const double back = steps_done_ > 0 ? step_ : 0;
+  const auto level = [&](double mass, const Triple<double>& position, const Triple<double>& velocity) {
+    return mass * dot(gravity_, position - back * velocity);
+  };
   double sum = 0;
-  for (Index i = 0; i < spheres_.size(); ++i) {
-    // After a step the positions are one drift ahead of the last forces.
-    const double back = steps_done_ > 0 ? step_ : 0;
-    const Triple<double> position =
-        triple<double>(spheres_.position[i]) - back * triple<double>(spheres_.velocity[i]);
-    sum += spheres_.velocity[i].w * dot(gravity_, position);
-  }
+  for (Index i = 0; i < spheres_.size(); ++i)
+    if (!spheres_.in_rock(i))
+      sum += level(spheres_.velocity[i].w, triple<double>(spheres_.position[i]),
+                   triple<double>(spheres_.velocity[i]));
+  for (Index k = 0; k < rocks_.size(); ++k)
+    sum += level(rocks_.mass(k), rocks_.centre(k), rocks_.velocity(k));
   return sum;
 }
 
-ParticleLedger ParticleSolver::ledger() const noexcept {
-  ParticleLedger ledger{.damping = work_.damping, .friction = work_.friction, .boundary = work_.boundary};
+void ParticleSolver::add_spheres_to(ParticleLedger& ledger) const noexcept {
   const double back = steps_done_ > 0 ? step_ : 0;
   for (Index i = 0; i < spheres_.size(); ++i) {
+    if (spheres_.in_rock(i)) continue;
     const double mass = spheres_.velocity[i].w, radius = spheres_.position[i].w;
     const Triple<double> v = triple<double>(spheres_.velocity[i]);
     const Triple<double> before = v - back * ((1 / mass) * triple<double>(spheres_.force[i]) + gravity_);
@@ -174,13 +180,18 @@ ParticleLedger ParticleSolver::ledger() const noexcept {
     const Triple<double> w = triple<double>(spheres_.spin[i]);
     ledger.rotation += 0.5 * inertia * dot(w, w - (back / inertia) * triple<double>(spheres_.torque[i]));
   }
-  std::visit(
-      [&]<class Law>(const ContactModel<Law>& model) {
-        if constexpr (Law::has_ledger)
-          ledger.elastic = model.pairs.stored_energy() + model.planes.stored_energy() +
-                           model.boundary.stored_energy(boundary_list_);
-      },
-      contacts_);
+}
+
+ParticleLedger ParticleSolver::ledger() const noexcept {
+  ParticleLedger ledger{.damping = work_.damping, .friction = work_.friction, .boundary = work_.boundary};
+  add_spheres_to(ledger);
+  for (Index k = 0; k < rocks_.size(); ++k) {
+    const Rocks::Energy energy = rocks_.energy(k, gravity_, steps_done_ > 0 ? step_ : 0);
+    ledger.kinetic += energy.translation;
+    ledger.rotation += energy.rotation;
+  }
+  ledger.elastic =
+      std::visit([&](const auto& model) { return model.stored_energy(boundary_list_); }, contacts_);
   ledger.gravity = gravity_work_level() - gravity_level_at_start_;
   return ledger;
 }

@@ -9,6 +9,7 @@
 #include "dem_solver/boundary/planes.hpp"
 #include "dem_solver/collision/pair_list.hpp"
 #include "dem_solver/contact/materials.hpp"
+#include "dem_solver/rocks/rocks.hpp"
 #include "dem_solver/scene/contact_models.hpp"
 
 namespace talus::dem {
@@ -16,6 +17,9 @@ namespace talus::dem {
 /// What is to be simulated.
 struct ParticleModel {
   std::vector<SphereInput> spheres;
+  std::vector<RockInput> rocks;  ///< spheres with `rock` k belong to rocks[k]
+  std::vector<mesh::Surface>
+      rock_surfaces;  ///< for pictures; empty ones where there is none; in principal axes
   std::vector<Plane> planes;
   Boundary boundary;
   PairTable pairs;
@@ -68,6 +72,7 @@ class ParticleSolver {
   void set_clock(const Clock& clock) noexcept;
 
   const Spheres& spheres() const noexcept { return spheres_; }
+  const Rocks& rocks() const noexcept { return rocks_; }
   /// Where the sphere that was added as number id stands now.
   Index place(Index id) const noexcept { return place_[id]; }
   Boundary& boundary() noexcept { return boundary_; }
@@ -89,13 +94,14 @@ class ParticleSolver {
   double largest_motion() const noexcept;
   void clear_loads() noexcept;
   void evaluate_contacts() noexcept;
-  template <class Law>
-  void evaluate_boundary(BoundaryContacts<Law>& contacts) noexcept;
   void move_spheres();
   [[noreturn]] void report_not_finite() const;
+  ContactStage contact_stage() noexcept;
   double gravity_work_level() const noexcept;
+  void add_spheres_to(ParticleLedger& ledger) const noexcept;
 
   Spheres spheres_;
+  Rocks rocks_;
   std::vector<Plane> planes_;
   Boundary boundary_;
   PairTable pairs_;

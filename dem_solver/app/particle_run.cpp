@@ -27,10 +27,12 @@ ParticleModel model_of(const RunScene& scene, const mesh::Surface& surface) {
       {.step = own_step(scene).value_or(0), .ledger = scene.output.has_value(), .threads = threads});
 }
 
-std::vector<std::pair<std::string, Index>> named_spheres(const ParticlesScene& particles) {
-  std::vector<std::pair<std::string, Index>> named;
+NamedBodies named_bodies(const ParticlesScene& particles) {
+  NamedBodies named;
   for (const auto& [name, sphere] : particles.spheres)
-    named.emplace_back(name, static_cast<Index>(named.size()));
+    named.spheres.emplace_back(name, static_cast<Index>(named.spheres.size()));
+  for (const auto& [name, rock] : particles.rocks)
+    named.rocks.emplace_back(name, static_cast<Index>(named.rocks.size()));
   return named;
 }
 
@@ -43,7 +45,7 @@ ParticleRun::ParticleRun(const RunScene& scene, const mesh::Surface& surface,
 ParticleRun::ParticleRun(const RunScene& scene, const ParticleModel& model,
                          std::span<const double> node_masses)
     : solver(model),
-      output(solver, named_spheres(scene.particles)),
+      output(solver, named_bodies(scene.particles), model.rock_surfaces),
       limits(step_limits(model, {.materials = materials_of(scene.particles), .node_masses = node_masses})) {}
 
 std::string schema() {

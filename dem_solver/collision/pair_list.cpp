@@ -47,7 +47,7 @@ std::vector<Index> slab_of_spheres(std::span<const Index> slab_first) {
 }
 
 bool same_rock(const Spheres& spheres, Index i, Index j) noexcept {
-  return !spheres.rock.empty() && spheres.rock[i] >= 0 && spheres.rock[i] == spheres.rock[j];
+  return spheres.in_rock(i) && spheres.rock[i] == spheres.rock[j];
 }
 
 SlabPairs search_slab(const Spheres& spheres, const SizeClasses& classes, std::span<const Index> slab,

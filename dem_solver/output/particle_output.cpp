@@ -7,11 +7,13 @@ namespace talus::dem {
 using core::FieldLocation;
 using core::LedgerKind;
 
-ParticleOutput::ParticleOutput(const ParticleSolver& solver, std::vector<std::pair<std::string, Index>> named)
-    : solver_(solver), named_(std::move(named)) {
+ParticleOutput::ParticleOutput(const ParticleSolver& solver, NamedBodies named,
+                               std::vector<mesh::Surface> rock_surfaces)
+    : solver_(solver), named_(std::move(named)), rock_surfaces_(std::move(rock_surfaces)) {
   describe_probes();
   if (solver_.law().ledger) describe_ledger();
   describe_particles();
+  describe_rocks();
   if (!solver_.boundary().empty()) describe_boundary();
 }
 
@@ -19,13 +21,15 @@ void ParticleOutput::describe_probes() {
   const auto add_vector = [this](const std::string& name, const std::string& unit) {
     for (const char* axis : {"_x_", "_y_", "_z_"}) description_.probes.push_back({name + axis + unit});
   };
-  for (const auto& [name, id] : named_) {
+  const auto add_body = [&](const std::string& name, bool turns) {
     add_vector(name + ".position", "m");
     add_vector(name + ".velocity", "m_per_s");
-    if (solver_.spheres().rotates()) add_vector(name + ".spin", "rad_per_s");
+    if (turns) add_vector(name + ".spin", "rad_per_s");
     add_vector(name + ".contact_force", "N");
     description_.probes.push_back({name + ".kinetic_energy_J"});
-  }
+  };
+  for (const auto& [name, id] : named_.spheres) add_body(name, solver_.spheres().rotates());
+  for (const auto& [name, k] : named_.rocks) add_body(name, true);
 }
 
 void ParticleOutput::describe_ledger() {
@@ -50,6 +54,19 @@ void ParticleOutput::describe_particles() {
   if (solver_.spheres().rotates()) particles.fields.push_back({"spin", "rad/s", 3, FieldLocation::node});
   description_.groups.push_back(std::move(particles));
   groups_.push_back(Group::particles);
+}
+
+void ParticleOutput::describe_rocks() {
+  core::GroupDescription rocks{
+      .name = "rocks", .kind = core::CellKind::triangle, .nodes = 0, .cells = {}, .fields = {}};
+  for (const mesh::Surface& surface : rock_surfaces_) {
+    for (const auto& triangle : surface.triangles)
+      for (mesh::Index node : triangle) rocks.cells.push_back(node + rocks.nodes);
+    rocks.nodes += surface.node_count();
+  }
+  if (rocks.cells.empty()) return;
+  description_.groups.push_back(std::move(rocks));
+  groups_.push_back(Group::rocks);
 }
 
 void ParticleOutput::describe_boundary() {
@@ -77,17 +94,26 @@ void ParticleOutput::describe_boundary() {
 
 void ParticleOutput::fill_probes(std::span<double> values) const {
   auto next = values.begin();
-  const auto put = [&next](const Row& r) {
+  const auto put = [&next](const auto& r) {
     for (double component : {r.x, r.y, r.z}) *next++ = component;
   };
+  const auto energy = [](double mass, const Triple<double>& v) { return 0.5 * mass * dot(v, v); };
   const Spheres& s = solver_.spheres();
-  for (const auto& [name, id] : named_) {
+  for (const auto& [name, id] : named_.spheres) {
     const Index i = solver_.place(id);
     put(s.position[i]);
     put(s.velocity[i]);
     if (s.rotates()) put(s.spin[i]);
     put(s.force[i]);
-    *next++ = 0.5 * s.velocity[i].w * dot(triple<double>(s.velocity[i]), triple<double>(s.velocity[i]));
+    *next++ = energy(s.velocity[i].w, triple<double>(s.velocity[i]));
+  }
+  const Rocks& rocks = solver_.rocks();
+  for (const auto& [name, k] : named_.rocks) {
+    put(rocks.centre(k));
+    put(rocks.velocity(k));
+    put(rocks.spin(k));
+    put(rocks.force(k));
+    *next++ = energy(rocks.mass(k), rocks.velocity(k)) + 0.5 * dot(rocks.spin(k), rocks.angular_momentum(k));
   }
 }
 
@@ -118,11 +144,28 @@ void put_by_id(const Spheres& spheres, std::span<const Row> rows, std::span<doub
 }
 }  // namespace
 
+void ParticleOutput::fill_rock_surfaces(std::span<double> positions) const {
+  auto next = positions.begin();
+  for (Index k = 0; k < solver_.rocks().size(); ++k) {
+    const std::vector<double>& in_rock = rock_surfaces_[k].positions;
+    for (std::size_t i = 0; i < in_rock.size(); i += 3) {
+      const Triple<double> arm{in_rock[i], in_rock[i + 1], in_rock[i + 2]};
+      const Triple<double> p = solver_.rocks().centre(k) + rotate(solver_.rocks().orientation(k), arm);
+      for (double component : {p.x, p.y, p.z}) *next++ = component;
+    }
+  }
+}
+
 void ParticleOutput::fill_positions(std::size_t group, std::span<double> positions) const {
-  if (groups_[group] == Group::particles)
-    put_by_id(solver_.spheres(), solver_.spheres().position, positions);
-  else
-    put_rows(solver_.boundary().position(), positions);
+  switch (groups_[group]) {
+    case Group::particles:
+      return put_by_id(solver_.spheres(), solver_.spheres().position, positions);
+    case Group::rocks:
+      return fill_rock_surfaces(positions);
+    case Group::wires:
+    case Group::faces:
+      return put_rows(solver_.boundary().position(), positions);
+  }
 }
 
 void ParticleOutput::fill_field(std::size_t group, std::size_t field, std::span<double> values) const {

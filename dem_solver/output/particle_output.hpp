@@ -9,13 +9,18 @@
 
 namespace talus::dem {
 
-/// What a run of particles writes: the trajectory of each named sphere, the ledger, and fields of all
-/// particles and of the boundary.
+/// What gets columns in probes.csv, with its number in the solver.
+struct NamedBodies {
+  std::vector<std::pair<std::string, Index>> spheres, rocks;
+};
+
+/// What a run of particles writes: the trajectory of each named sphere and rock, the ledger, and fields of
+/// all particles, of the rocks' surfaces and of the boundary.
 class ParticleOutput : public core::OutputSource {
  public:
-  /// @param named name and number of the spheres that get columns in probes.csv. @pre the solver outlives
-  /// this
-  ParticleOutput(const ParticleSolver& solver, std::vector<std::pair<std::string, Index>> named);
+  /// @param rock_surfaces one a rock, in its principal axes; empty ones are not drawn. @pre the solver
+  /// outlives this
+  ParticleOutput(const ParticleSolver& solver, NamedBodies named, std::vector<mesh::Surface> rock_surfaces);
 
   const core::OutputDescription& description() const override { return description_; }
   void fill_probes(std::span<double> values) const override;
@@ -24,14 +29,17 @@ class ParticleOutput : public core::OutputSource {
   void fill_field(std::size_t group, std::size_t field, std::span<double> values) const override;
 
  private:
-  enum class Group { particles, wires, faces };
+  enum class Group { particles, rocks, wires, faces };
   void describe_probes();
   void describe_ledger();
   void describe_particles();
+  void describe_rocks();
   void describe_boundary();
+  void fill_rock_surfaces(std::span<double> positions) const;
 
   const ParticleSolver& solver_;
-  std::vector<std::pair<std::string, Index>> named_;
+  NamedBodies named_;
+  std::vector<mesh::Surface> rock_surfaces_;
   core::OutputDescription description_;
   std::vector<Group> groups_;
 };

@@ -31,6 +31,7 @@ struct Spheres {
   std::vector<Index> rock;  ///< empty where there are no rocks
 
   Index size() const noexcept { return static_cast<Index>(position.size()); }
+  bool in_rock(Index i) const noexcept { return !rock.empty() && rock[i] >= 0; }
   bool rotates() const noexcept { return !spin.empty(); }
   void add(std::span<const SphereInput> input, bool with_rotation);
   /// Moves sphere order[i] to place i.

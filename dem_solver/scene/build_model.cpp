@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "core/errors.hpp"
+#include "dem_solver/scene/overlap_check.hpp"
 #include "dem_solver/scene/scene_rules.hpp"
 
 namespace talus::dem {
@@ -73,6 +74,30 @@ SphereInput sphere_of(const ParticlesScene& particles, const SphereScene& scene)
           .material = static_cast<Index>(material)};
 }
 
+double density_of(const ParticlesScene& particles, const std::string& material) {
+  return particles.materials[material_index(particles, material)].second.density.value();
+}
+
+/// Named spheres first, then rocks, then streams: the order of ids.
+void add_bodies(const ParticlesScene& particles, ParticleModel& model) {
+  for (const auto& [name, sphere] : particles.spheres) model.spheres.push_back(sphere_of(particles, sphere));
+  for (const auto& [name, scene] : particles.rocks) {
+    BuiltRock built = build_rock(name, scene, density_of(particles, scene.material));
+    for (SphereInput& sphere : built.spheres) {
+      sphere.material = static_cast<Index>(material_index(particles, scene.material));
+      sphere.rock = static_cast<Index>(model.rocks.size());
+      model.spheres.push_back(sphere);
+    }
+    model.rocks.push_back(built.rock);
+    model.rock_surfaces.push_back(std::move(built.surface));
+  }
+  for (const auto& [name, stream] : particles.streams)
+    for (SphereInput sphere : make_stream(stream, density_of(particles, stream.material))) {
+      sphere.material = static_cast<Index>(material_index(particles, stream.material));
+      model.spheres.push_back(sphere);
+    }
+}
+
 /// A boundary that names no material gets the only one there is for it.
 std::string boundary_material(const ParticlesScene& particles, const mesh::SurfacePart& part) {
   if (!part.material.empty()) return part.material;
@@ -89,9 +114,9 @@ std::vector<Index> materials_of_parts(const ParticlesScene& particles, const mes
     if (index < 0)
       throw core::ConfigError("the boundary `" + part.name + "`: there is no material `" + name +
                               "` in particles.materials");
-    for (const auto& [sphere_name, sphere] : particles.spheres)
-      if (find_contact(particles, sphere.material, name) == nullptr)
-        throw core::ConfigError(missing_contact_message(sphere.material, name));
+    for (const Body& body : bodies_of(particles))
+      if (find_contact(particles, body.material, name) == nullptr)
+        throw core::ConfigError(missing_contact_message(body.material, name));
     materials.push_back(static_cast<Index>(index));
   }
   return materials;
@@ -137,7 +162,7 @@ LawChoice law_of(const ParticlesScene& particles, const BuildContext& context) {
 ParticleModel build_model(const ParticlesScene& particles, const mesh::Surface& surface,
                           const BuildContext& context) {
   ParticleModel model;
-  for (const auto& [name, sphere] : particles.spheres) model.spheres.push_back(sphere_of(particles, sphere));
+  add_bodies(particles, model);
   for (const auto& [name, plane] : particles.planes)
     model.planes.push_back({.name = name,
                             .point = triple_of(plane.point),
@@ -148,6 +173,7 @@ ParticleModel build_model(const ParticlesScene& particles, const mesh::Surface& 
     for (const auto& [name, boundary] : particles.boundaries)
       if (boundary.velocity && name == surface.parts[k].name)
         model.boundary.set_velocity(static_cast<Index>(k), triple_of(*boundary.velocity));
+  check_overlaps(model.spheres);
   model.pairs = pair_table(particles);
   model.law = law_of(particles, context);
   if (particles.gravity) model.gravity = triple_of(*particles.gravity);

@@ -1,22 +1,12 @@
 #pragma once
 
+#include <tuple>
 #include <variant>
 
-#include "dem_solver/contact/boundary_contacts.hpp"
-#include "dem_solver/contact/pair_contacts.hpp"
-#include "dem_solver/contact/plane_contacts.hpp"
+#include "dem_solver/contact/contact_model.hpp"
 
 /// The contact laws a scene can call for: every combination of terms, listed once.
 namespace talus::dem {
-
-/// Everything of one composed law.
-template <class ComposedLaw>
-struct ContactModel {
-  using Law = ComposedLaw;
-  PairContacts<Law> pairs;
-  PlaneContacts<Law> planes;
-  BoundaryContacts<Law> boundary;
-};
 
 template <class Normal, class Ledger>
 struct Combinations {

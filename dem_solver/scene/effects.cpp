@@ -1,5 +1,7 @@
 #include "dem_solver/scene/effects.hpp"
 
+#include "dem_solver/scene/scene_rules.hpp"
+
 namespace talus::dem {
 
 namespace {
@@ -10,6 +12,12 @@ std::string contact_with(const ParticlesScene& particles, Has&& has) {
   for (std::size_t k = 0; k < particles.contacts.size(); ++k)
     if (has(particles.contacts[k])) return "particles.contacts[" + std::to_string(k) + "]";
   return {};
+}
+
+bool has_several_bodies(const ParticlesScene& particles) {
+  std::int64_t bodies = 0;
+  for (const Body& body : bodies_of(particles)) bodies += body.count;
+  return bodies > 1;
 }
 
 ParticleEffect effect(const char* name, const std::string& named_by, const char* would_need) {
@@ -30,8 +38,9 @@ std::vector<ParticleEffect> effects_of(const ParticlesScene& particles, const Ef
   };
   return {
       effect("gravity", particles.gravity ? "particles.gravity" : "", "particles.gravity is absent"),
-      effect("contacts between spheres", particles.spheres.size() > 1 ? "more than one sphere" : "",
-             "there is one sphere only"),
+      effect("contacts between spheres", has_several_bodies(particles) ? "more than one body" : "",
+             "there is one body only"),
+      effect("rocks", particles.rocks.empty() ? "" : "particles.rocks", "particles.rocks is absent"),
       effect("planes", particles.planes.empty() ? "" : "particles.planes", "particles.planes is absent"),
       effect("boundary",
              !particles.boundaries.empty() ? "particles.boundaries"

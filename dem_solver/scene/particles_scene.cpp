@@ -30,6 +30,8 @@ void describe(core::Fields& fields, ParticlesScene& particles) {
   fields.list("contacts", particles.contacts,
               "what happens between two materials; every pair that can meet needs an entry");
   fields.map("spheres", particles.spheres, "single spheres, by name");
+  fields.map("rocks", particles.rocks, "rigid bodies of spheres, by name");
+  fields.map("streams", particles.streams, "many spheres released from a box, by name");
   fields.map("planes", particles.planes, "infinite planes, by name");
   fields.map("boundaries", particles.boundaries,
              "rigid wires and faces at rest or at constant velocity, by name");
@@ -41,6 +43,8 @@ void describe(core::Fields& fields, ParticlesScene& particles) {
       "together with the nodes' own motion; absent: with the velocity half a step ago");
   fields.rule(!(particles.step && particles.implicit_contact), "step",
               "contradicts implicit_contact, which takes one step a coupling window");
+  fields.rule(particles.rocks.empty() || !particles.implicit_contact, "implicit_contact",
+              "is there for single spheres only; the scene has `rocks`");
   fields.choice("unstable_step", particles.unstable_step, {"refused", "allowed"},
                 "what to do with a step above a stability limit");
   fields.with_default("threads", particles.threads,

@@ -8,6 +8,8 @@
 
 #include "dem_solver/scene/boundary_scene.hpp"
 #include "dem_solver/scene/contact_scene.hpp"
+#include "dem_solver/scene/rock_scene.hpp"
+#include "dem_solver/scene/stream_scene.hpp"
 
 /// The section `particles` of a scene.
 namespace talus::dem {
@@ -37,6 +39,8 @@ struct ParticlesScene {
   Named<MaterialScene> materials;
   std::vector<ContactScene> contacts;
   Named<SphereScene> spheres;
+  Named<RockScene> rocks;
+  Named<StreamScene> streams;
   Named<PlaneScene> planes;
   Named<BoundaryScene> boundaries;
   std::optional<double> step;  ///< s

@@ -22,6 +22,15 @@ const ContactScene* find_contact(const ParticlesScene& particles, const std::str
   return nullptr;
 }
 
+std::vector<Body> bodies_of(const ParticlesScene& particles) {
+  std::vector<Body> bodies;
+  for (const auto& [name, sphere] : particles.spheres) bodies.push_back({"spheres", name, sphere.material});
+  for (const auto& [name, rock] : particles.rocks) bodies.push_back({"rocks", name, rock.material});
+  for (const auto& [name, stream] : particles.streams)
+    bodies.push_back({"streams", name, stream.material, stream.count});
+  return bodies;
+}
+
 std::string missing_contact_message(const std::string& a, const std::string& b) {
   return "no contact between `" + a + "` and `" + b + "`, which can meet: add an entry with `between: [" + a +
          ", " + b + "]` to particles.contacts";
@@ -54,11 +63,11 @@ class References {
 
 void check_names(core::Fields& fields, const ParticlesScene& particles) {
   References check(fields, particles);
-  for (const auto& [name, sphere] : particles.spheres) {
-    check.material("spheres", name, sphere.material);
-    const auto index = material_index(particles, sphere.material);
-    fields.rule(index < 0 || particles.materials[index].second.density, "spheres",
-                name + ": material `" + sphere.material + "` has no density, which its mass needs");
+  for (const Body& body : bodies_of(particles)) {
+    check.material(body.section, body.name, body.material);
+    const auto index = material_index(particles, body.material);
+    fields.rule(index < 0 || particles.materials[index].second.density, body.section,
+                body.name + ": material `" + body.material + "` has no density, which its mass needs");
   }
   for (const auto& [name, plane] : particles.planes) check.material("planes", name, plane.material);
   for (const auto& [name, boundary] : particles.boundaries)
@@ -68,16 +77,16 @@ void check_names(core::Fields& fields, const ParticlesScene& particles) {
 }
 
 void check_pairs(core::Fields& fields, const ParticlesScene& particles) {
-  std::map<std::string, int> spheres;
+  std::map<std::string, std::int64_t> moving;
   std::set<std::string> walls;
-  for (const auto& [name, sphere] : particles.spheres) ++spheres[sphere.material];
+  for (const Body& body : bodies_of(particles)) moving[body.material] += body.count;
   for (const auto& [name, plane] : particles.planes) walls.insert(plane.material);
   for (const auto& [name, boundary] : particles.boundaries) walls.insert(boundary.material);
   const auto need = [&](const std::string& a, const std::string& b) {
     fields.rule(find_contact(particles, a, b) != nullptr, "contacts", missing_contact_message(a, b));
   };
-  for (const auto& [a, count] : spheres) {
-    for (const auto& [b, other_count] : spheres)
+  for (const auto& [a, count] : moving) {
+    for (const auto& [b, other_count] : moving)
       if (a < b || (a == b && count > 1)) need(a, b);
     for (const std::string& wall : walls) need(a, wall);
   }

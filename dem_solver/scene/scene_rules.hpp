@@ -1,5 +1,8 @@
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "dem_solver/scene/particles_scene.hpp"
 
 namespace talus::dem {
@@ -7,6 +10,14 @@ namespace talus::dem {
 /// Complains about names that nothing defines, pairs of materials that can meet but have no contact law, and
 /// laws that don't go together.
 void check_references(core::Fields& fields, const ParticlesScene& particles);
+
+/// A named thing of the scene that moves, and how many of it can meet each other.
+struct Body {
+  const char* section;  ///< "spheres", "rocks" or "streams"
+  std::string name, material;
+  std::int64_t count = 1;
+};
+std::vector<Body> bodies_of(const ParticlesScene& particles);
 
 /// The place of a name in `materials`, -1 where it is none.
 std::int64_t material_index(const ParticlesScene& particles, const std::string& name);

@@ -4,6 +4,7 @@
 #include "tests/support/folder.hpp"
 #include "tests/support/scenes.hpp"
 
+#include "dem_solver/scene/overlap_check.hpp"
 #include "dem_solver/scene/particles_scene.hpp"
 
 using namespace talus;
@@ -37,13 +38,38 @@ TEST_CASE("A pair of materials that can meet but has no contact is named") {
              Contains("no contact between `rock` and `wall`"));
 }
 
-TEST_CASE("The example of bouncing spheres runs alone and writes its result") {
-  const test::Folder folder("dem_bouncing");
+TEST_CASE("The examples of the particle side run alone and write their results") {
+  const std::string name = GENERATE("bouncing_spheres", "rocks_and_stones", "rolling_on_triangles");
+  const test::Folder folder("dem_" + name);
   core::SolverCommand command;
-  command.scene = std::string(TALUS_SOURCE_DIR) + "/configs/examples/bouncing_spheres.yaml";
+  command.scene = std::string(TALUS_SOURCE_DIR) + "/configs/examples/" + name + ".yaml";
   command.run.out = folder / "result";
   command.run.progress = core::ProgressStyle::quiet;
   CHECK(dem::run_standalone(command) == core::ExitCode::success);
-  for (const char* file : {"summary.json", "probes.csv", "energy.csv", "fields.h5", "fields.xdmf"})
+  for (const char* file : {"summary.json", "probes.csv", "energy.csv"})
     CHECK(std::filesystem::exists(folder / (std::string("result/") + file)));
+}
+
+TEST_CASE("Bad particle scenes are refused with a message that says what to do") {
+  using Catch::Contains;
+  const std::string contacts = "  contacts: [{between: [rock, rock], hertz: {restitution: 0.5}}]\n";
+  const auto text = [&](const std::string& more) {
+    dem::ParticlesScene scene;
+    return test::complaints_about(scene_with(contacts + more), scene, "particles");
+  };
+  CHECK_THAT(text("  spheres: {a: {material: sand, radius: 0.1, at: [0, 0, 0]}}\n"),
+             Contains("there is no material `sand`"));
+  CHECK_THAT(text("  spheres: {a: {material: wall, radius: 0.1, at: [0, 0, 0]}}\n"),
+             Contains("has no density"));
+  CHECK_THAT(text("  spheres: {a: {material: rock, radius: -0.1, at: [0, 0, 0]}}\n"), Contains("radius"));
+  CHECK_THAT(text("  streams: {s: {material: rock, count: 1000000, radius: [0.1], low: [0, 0, 0], high: [1, "
+                  "1, 1]}}\n"),
+             Contains("the box has room for 125 spheres"));
+}
+
+TEST_CASE("Spheres that overlap at the start are refused with their depth") {
+  const std::vector<dem::SphereInput> spheres{
+      {.position = {0, 0, 0}, .velocity = {}, .spin = {}, .radius = 1, .mass = 1},
+      {.position = {1.5, 0, 0}, .velocity = {}, .spin = {}, .radius = 1, .mass = 1}};
+  CHECK_THROWS_WITH(dem::check_overlaps(spheres), Catch::Contains("by 0.5 m"));
 }

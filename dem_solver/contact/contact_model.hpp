@@ -1,0 +1,62 @@
+#pragma once
+
+#include "dem_solver/contact/boundary_contacts.hpp"
+#include "dem_solver/contact/pair_contacts.hpp"
+#include "dem_solver/contact/plane_contacts.hpp"
+
+namespace talus::dem {
+
+/// What contacts work on, and the lists of who may touch whom.
+struct ContactStage {
+  Spheres& spheres;
+  std::span<const Plane> planes;
+  Boundary& boundary;
+  PairList& pair_list;
+  PlaneList& plane_list;
+  BoundaryList& boundary_list;
+  const PairTable& table;
+  const ImplicitContact* implicit_contact = nullptr;  ///< of the boundary; nullptr: explicit
+  double step = 0;                                    ///< s
+  int threads = 1;
+};
+
+/// Where the memory of contacts goes when the lists are rebuilt.
+struct ContactMoves {
+  std::span<const SlotMove> pairs, planes, boundary;
+};
+
+/// Everything of one composed law. The members stand in contact_model_stages.hpp and are compiled once a law,
+/// in scene/.
+template <class ComposedLaw>
+class ContactModel {
+ public:
+  using Law = ComposedLaw;
+
+  void rebuild(const ContactStage& stage, const ContactMoves& moves);
+  /// Adds the loads of all contacts to the spheres and sets the boundary's reactions. The lists must be up
+  /// to date.
+  /// @return the sweeps that implicit contact needed; 0 where it is explicit
+  int evaluate(const ContactStage& stage) noexcept;
+
+  /// J; since the last evaluation. Zero without a ledger.
+  ContactWork last_work() const noexcept;
+  /// J; in the springs at the last evaluation. Zero without a ledger.
+  double stored_energy(const BoundaryList& boundary_list) const noexcept;
+
+  template <class Self, class Visitor>
+  static void visit_state(Self& self, Visitor&& visit) {
+    PairContacts<Law>::visit_state(self.pairs_,
+                                   [&](const char*, auto& array) { visit("pair_memory", array); });
+    PlaneContacts<Law>::visit_state(self.planes_,
+                                    [&](const char*, auto& array) { visit("plane_memory", array); });
+    BoundaryContacts<Law>::visit_state(self.boundary_,
+                                       [&](const char*, auto& array) { visit("boundary_memory", array); });
+  }
+
+ private:
+  PairContacts<Law> pairs_;
+  PlaneContacts<Law> planes_;
+  BoundaryContacts<Law> boundary_;
+};
+
+}  // namespace talus::dem

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <vector>
+
+#include "dem_solver/rocks/ball_union.hpp"
+#include "interface_mesh/surface.hpp"
+
+namespace talus::dem {
+
+/// Spheres that stand for a solid in contacts.
+struct SphereFilling {
+  std::vector<Ball> balls;  ///< inside the surface, largest first
+  double deviation = 0;     ///< m; the largest distance of a node of the surface from the spheres
+};
+
+struct FillingGoal {
+  double deviation = 0;             ///< m; wanted
+  std::size_t most_balls = 20'000;  ///< an error beyond
+};
+
+/// Fills a closed surface with inscribed spheres: again and again the largest that fits around a point which
+/// no sphere comes nearer to than the deviation. Points are those of a grid of half the deviation that lie at
+/// least that deep. Sharp corners stay further from the spheres than the goal (a ball in a cube's corner
+/// leaves 0.73 of its radius); what was reached is measured at the nodes and returned.
+/// @throws ConfigError where the goal needs more than most_balls. @pre the surface is closed
+SphereFilling fill_with_spheres(const mesh::Surface& surface, const FillingGoal& goal);
+
+}  // namespace talus::dem

@@ -1,0 +1,136 @@
+#include "dem_solver/scene/rock_scene.hpp"
+
+#include <Eigen/Dense>
+
+#include "core/errors.hpp"
+#include "dem_solver/rocks/ball_union.hpp"
+#include "dem_solver/rocks/polyhedron.hpp"
+#include "dem_solver/rocks/sphere_filling.hpp"
+
+namespace talus::dem {
+
+void describe(core::Fields& fields, SpheresShapeScene& shape) {
+  fields.required("centres", shape.centres, {.unit = "m", .help = "of the spheres, in any frame"});
+  fields.required("radii", shape.radii, {.unit = "m", .range = core::positive, .help = "one a sphere"});
+  fields.rule(!shape.centres.empty() && shape.centres.size() == shape.radii.size(), "radii",
+              "needs as many radii as centres");
+}
+
+void describe(core::Fields& fields, BlockScene& block) {
+  constexpr core::Range cut_range{.low = 0, .high = 0.5, .low_included = false, .high_included = false};
+  fields.optional("edge", block.edge,
+                  {.unit = "m", .range = core::positive, .help = "of the cube before its corners are cut"});
+  fields.optional(
+      "mass", block.mass,
+      {.unit = "kg", .range = core::positive, .help = "gives the edge, with the material's density"});
+  fields.with_default("cut", block.cut,
+                      {.range = cut_range, .help = "part of the edge that is cut off at each corner"});
+  fields.optional(
+      "deviation", block.deviation,
+      {.unit = "m", .range = core::positive, .help = "of the filling spheres; absent: 5 % of the edge"});
+  fields.rule(block.edge.has_value() != block.mass.has_value(), "edge",
+              "needs exactly one of `edge` and `mass`");
+}
+
+void describe(core::Fields& fields, SurfaceScene& surface) {
+  describe(fields, surface.file);
+  fields.required("deviation", surface.deviation,
+                  {.unit = "m",
+                   .range = core::positive,
+                   .help = "how far the filling spheres may stay from the surface"});
+}
+
+void describe(core::Fields& fields, RockScene& rock) {
+  fields.required("material", rock.material, {.help = "contact material; its density gives the mass"});
+  fields.one_of(rock.shape, {{"spheres", "the union of spheres"},
+                             {"block", "a cube without its corners, like the blocks of type tests"},
+                             {"surface", "a closed surface from a file, filled with spheres"}});
+  fields.required("at", rock.at, {.unit = "m", .help = "the centre of mass at time 0"});
+  fields.with_default("velocity", rock.velocity, {.unit = "m/s", .help = "at time 0"});
+  fields.with_default("spin", rock.spin, {.unit = "rad/s", .help = "angular velocity at time 0"});
+  fields.with_default("turned", rock.turned,
+                      {.unit = "rad", .help = "rotation vector that turns the shape before time 0"});
+}
+
+namespace {
+
+/// A shape in the frame it was given in.
+struct Shape {
+  std::vector<Ball> balls;
+  VolumeMoments moments;
+  mesh::Surface surface;
+};
+
+Shape shape_of(const std::string&, const SpheresShapeScene& scene, double) {
+  Shape shape;
+  for (std::size_t k = 0; k < scene.centres.size(); ++k)
+    shape.balls.push_back({scene.centres[k], scene.radii[k]});
+  shape.moments = union_moments(shape.balls);
+  return shape;
+}
+
+Shape filled(const std::string& name, mesh::Surface surface, double deviation) {
+  if (const std::string fault = closed_surface_fault(surface); !fault.empty())
+    throw core::ConfigError("particles.rocks." + name + ": " + fault);
+  Shape shape;
+  shape.balls = fill_with_spheres(surface, {.deviation = deviation}).balls;
+  shape.moments = polyhedron_moments(surface);
+  shape.surface = std::move(surface);
+  return shape;
+}
+
+Shape shape_of(const std::string& name, const BlockScene& block, double density) {
+  const double edge = block.edge ? *block.edge : block_edge(*block.mass / density, block.cut);
+  return filled(name, make_block({.edge = edge, .cut = block.cut}), block.deviation.value_or(0.05 * edge));
+}
+
+Shape shape_of(const std::string& name, const SurfaceScene& scene, double) {
+  return filled(name, mesh::generate(scene.file).surface, scene.deviation);
+}
+
+Triple<double> triple_of(const core::Vector3& v) {
+  return {v.x(), v.y(), v.z()};
+}
+
+Eigen::Quaterniond rotation_of(const core::Vector3& turned) {
+  const double angle = turned.norm();
+  return angle > 0 ? Eigen::Quaterniond(Eigen::AngleAxisd(angle, turned / angle))
+                   : Eigen::Quaterniond::Identity();
+}
+
+}  // namespace
+
+BuiltRock build_rock(const std::string& name, const RockScene& scene, double density) {
+  const Shape shape =
+      std::visit([&](const auto& kind) { return shape_of(name, kind, density); }, scene.shape);
+  const MassProperties mass = mass_properties(shape.moments, density);
+  const Eigen::SelfAdjointEigenSolver<Matrix3> principal(mass.inertia);
+  Matrix3 axes = principal.eigenvectors();
+  if (axes.determinant() < 0) axes.col(2) *= -1;  // a right-handed frame
+  const Eigen::Quaterniond turn = rotation_of(scene.turned);
+  const Eigen::Quaterniond q = (turn * Eigen::Quaterniond(axes)).normalized();
+
+  BuiltRock built;
+  built.rock = {.mass = mass.mass,
+                .moments = triple_of(principal.eigenvalues()),
+                .centre = triple_of(scene.at),
+                .orientation = {q.x(), q.y(), q.z(), q.w()},
+                .velocity = triple_of(scene.velocity),
+                .spin = triple_of(scene.spin)};
+  for (const Ball& ball : shape.balls) {
+    const core::Vector3 arm = turn * (ball.centre - mass.centre);
+    built.spheres.push_back({.position = triple_of(scene.at + arm),
+                             .velocity = triple_of(scene.velocity + scene.spin.cross(arm)),
+                             .spin = triple_of(scene.spin),
+                             .radius = ball.radius,
+                             .mass = mass.mass});
+  }
+  built.surface = shape.surface;
+  for (mesh::Index i = 0; i < built.surface.node_count(); ++i) {
+    Eigen::Map<core::Vector3> p(&built.surface.positions[3 * i]);
+    p = axes.transpose() * (p - mass.centre).eval();
+  }
+  return built;
+}
+
+}  // namespace talus::dem

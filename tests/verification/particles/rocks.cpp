@@ -1,0 +1,133 @@
+#include <Eigen/Dense>
+#include <catch2/catch.hpp>
+
+#include <numbers>
+
+#include "dem_solver/rocks/ball_union.hpp"
+#include "dem_solver/rocks/polyhedron.hpp"
+#include "dem_solver/rocks/sphere_filling.hpp"
+#include "tests/verification/particles/particle_models.hpp"
+
+using namespace talus;
+using namespace talus::dem;
+using namespace talus::dem::cases;
+using std::numbers::pi;
+
+namespace {
+
+/// Volume and moments about the base plane's centre of a ball's part beyond a plane at distance h from its
+/// centre (spherical cap of z > h), by the integrals of pi (R^2 - z^2) and its powers.
+struct Cap {
+  double volume, first, axial, radial;  ///< integrals of 1, z, z^2 and x^2 over R^2 - z^2 > x^2 + y^2, z > h
+
+  Cap(double r, double h) {
+    const auto integral = [&](auto antiderivative) { return antiderivative(r) - antiderivative(h); };
+    volume = pi * integral([&](double z) { return r * r * z - z * z * z / 3; });
+    first = pi * integral([&](double z) { return r * r * z * z / 2 - std::pow(z, 4) / 4; });
+    axial = pi * integral([&](double z) { return r * r * z * z * z / 3 - std::pow(z, 5) / 5; });
+    radial = pi / 4 * integral([&](double z) {
+               return std::pow(r, 4) * z - 2 * r * r * z * z * z / 3 + std::pow(z, 5) / 5;
+             });
+  }
+};
+
+}  // namespace
+
+TEST_CASE("Two overlapping balls have the mass and inertia of the closed form") {
+  const double r = 0.3, half = GENERATE(0.1, 0.2, 0.29), density = 2600;
+  const core::Vector3 axis = core::Vector3(1, 2, 3).normalized(), centre(4, 5, 6);
+  const std::vector<Ball> balls{{centre - half * axis, r}, {centre + half * axis, r}};
+  const MassProperties mass = mass_properties(union_moments(balls), density);
+
+  // Each half is a ball less the cap beyond the symmetry plane, which lies `half` from its centre.
+  const Cap cap(r, half);
+  const double ball = 4.0 / 3 * pi * r * r * r, ball_second = ball * r * r / 5;
+  const double volume = ball - cap.volume, first = -cap.first, axial = ball_second - cap.axial,
+               radial = ball_second - cap.radial;
+  // Along the axis, from the symmetry plane: the half's points are at -half + z.
+  const double axial_about_centre = axial - 2 * half * first + half * half * volume;
+  const double polar = 2 * density * 2 * radial, transverse = 2 * density * (radial + axial_about_centre);
+  const double tolerance = 1e-6;
+  CHECK(mass.mass == Approx(2 * density * volume).epsilon(tolerance));
+  CHECK((mass.centre - centre).norm() < 1e-6 * r);
+  CHECK(axis.dot(mass.inertia * axis) == Approx(polar).epsilon(tolerance));
+  const core::Vector3 across = axis.cross(core::Vector3::UnitX()).normalized();
+  CHECK(across.dot(mass.inertia * across) == Approx(transverse).epsilon(tolerance));
+}
+
+TEST_CASE("A block's mass properties are those of the closed form") {
+  const double edge = 1.2, cut = 0.25;
+  const mesh::Surface block = make_block({edge, cut});
+  REQUIRE(closed_surface_fault(block).empty());
+  const VolumeMoments m = polyhedron_moments(block);
+  // A cube less eight corner tetrahedra with legs cut*edge: volume leg^3/6 each, at leg/4 from the corner
+  // along each axis, second moment leg^5/60 about the corner's faces.
+  const double leg = cut * edge, h = edge / 2, tetrahedron = leg * leg * leg / 6;
+  const double second_corner = tetrahedron * h * h - 2 * h * tetrahedron * leg / 4 + std::pow(leg, 5) / 60;
+  CHECK(m.volume == Approx(std::pow(edge, 3) - 8 * tetrahedron).epsilon(1e-13));
+  CHECK(m.first.norm() < 1e-13);
+  for (int k = 0; k < 3; ++k)
+    CHECK(m.second(k, k) == Approx(std::pow(edge, 5) / 12 - 8 * second_corner).epsilon(1e-12));
+  CHECK(block_edge(m.volume, cut) == Approx(edge).epsilon(1e-13));
+}
+
+TEST_CASE("A filling's spheres stay inside the rock and come closer to it with a smaller deviation") {
+  const mesh::Surface block = make_block({1, 0.25});
+  double last = 1;
+  for (double deviation : {0.2, 0.1}) {
+    const SphereFilling filling = fill_with_spheres(block, {.deviation = deviation});
+    for (const Ball& ball : filling.balls)
+      for (int k = 0; k < 3; ++k) REQUIRE(std::abs(ball.centre[k]) + ball.radius <= 0.5 + 1e-12);
+    CHECK(filling.deviation < last);
+    last = filling.deviation;
+  }
+}
+
+TEST_CASE("A surface with a hole is refused as a rock") {
+  mesh::Surface block = make_block({1, 0.25});
+  block.triangles.pop_back();
+  CHECK_THAT(closed_surface_fault(block), Catch::Contains("not closed"));
+}
+
+TEST_CASE("A free asymmetric top keeps its energy and angular momentum over a million steps") {
+  const Triple<double> moments{1, 2, 3.5}, momentum{0.3, 2.1, 0.4};
+  const auto energy = [&](const Quaternion& q) {
+    return 0.5 * dot(momentum, angular_velocity(q, momentum, moments));
+  };
+  Quaternion q{0, 0, 0, 1};
+  const double start = energy(q);
+  double worst = 0;
+  for (int n = 0; n < 1'000'000; ++n) {
+    q = turned(q, {momentum, moments, 1e-3});
+    if (n % 100 == 0) worst = std::max(worst, std::abs(energy(q) / start - 1));
+  }
+  // The error of a second-order step oscillates with (w step)^2 ~ 1e-6 and does not grow.
+  CHECK(worst < 1e-6);
+  CHECK(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w == Approx(1).epsilon(1e-12));
+}
+
+TEST_CASE("A rock of one sphere moves like the sphere") {
+  const SphereCase c{.radius = 0.1, .youngs_modulus = 1e7, .restitution = 0.5, .friction = 0.4, .step = 2e-5};
+  const auto run = [&](bool as_rock) {
+    ParticleModel model = model_of(c, rigid());
+    model.gravity = {0, 0, -9.81};
+    model.planes = {floor()};
+    model.spheres = {c.sphere({0, 0, 0.12}, {1, 0.5, -1}, {3, 2, 1})};
+    if (as_rock) {
+      model.spheres[0].rock = 0;
+      const double inertia = 0.4 * c.mass() * c.radius * c.radius;
+      model.rocks = {{.mass = c.mass(),
+                      .moments = {inertia, inertia, inertia},
+                      .centre = {0, 0, 0.12},
+                      .velocity = {1, 0.5, -1},
+                      .spin = {3, 2, 1}}};
+    }
+    ParticleSolver solver(model);
+    for (int n = 0; n < 10000; ++n) solver.step();
+    return std::pair{position(solver, 0), spin(solver, 0)};
+  };
+  const auto [p, w] = run(false);
+  const auto [q, u] = run(true);
+  CHECK(length(p - q) < 1e-10);
+  CHECK(length(w - u) < 1e-9);
+}
