@@ -72,6 +72,7 @@ class Server {
         return coupler::report(participant_, command, run_.output);
       case Action::write_checkpoint:
       case Action::read_checkpoint:
+        throw core::UsageError("dem_solver writes and reads no checkpoints");
       case Action::finish:
         break;
     }
