@@ -1,29 +1,11 @@
 #include "core/output/field_store.hpp"
 
 #include <fmt/format.h>
-#include <hdf5.h>
-
 #include "core/errors.hpp"
+#include "core/output/hdf5_handle.hpp"
 
 namespace talus::core {
 namespace {
-
-/// An identifier of the HDF5 library, closed by the function that fits its kind.
-class Handle {
- public:
-  using Close = herr_t (*)(hid_t);
-  Handle(hid_t id, Close close, const std::string& what) : id_(id), close_(close) {
-    if (id < 0) throw std::runtime_error("the HDF5 library cannot make " + what);
-  }
-  ~Handle() { close_(id_); }
-  Handle(const Handle&) = delete;
-  Handle& operator=(const Handle&) = delete;
-  operator hid_t() const { return id_; }
-
- private:
-  hid_t id_;
-  Close close_;
-};
 
 using Shape = std::vector<hsize_t>;
 
@@ -40,9 +22,9 @@ class Reserver {
   /// Returns the place in the file. @pre content, where given, holds as many numbers as the shape
   std::uint64_t operator()(hid_t parent, const std::string& name, const Shape& shape,
                            const void* content = nullptr) const {
-    const Handle space(H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr), H5Sclose,
-                       name);
-    const Handle made(
+    const Hdf5Handle space(H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr), H5Sclose,
+                           name);
+    const Hdf5Handle made(
         H5Dcreate2(parent, name.c_str(), numbers_, space, H5P_DEFAULT, properties_, H5P_DEFAULT), H5Dclose,
         name);
     if (content && H5Dwrite(made, numbers_, H5S_ALL, H5S_ALL, H5P_DEFAULT, content) < 0)
@@ -54,15 +36,15 @@ class Reserver {
 
  private:
   hid_t numbers_;  // their type
-  Handle properties_{H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "dataset properties"};
+  Hdf5Handle properties_{H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "dataset properties"};
 };
 
 void set_text_attribute(hid_t object, const char* name, const std::string& text) {
-  const Handle type(H5Tcopy(H5T_C_S1), H5Tclose, "a text type");
+  const Hdf5Handle type(H5Tcopy(H5T_C_S1), H5Tclose, "a text type");
   H5Tset_size(type, std::max<std::size_t>(1, text.size()));
-  const Handle space(H5Screate(H5S_SCALAR), H5Sclose, "a scalar space");
-  const Handle attribute(H5Acreate2(object, name, type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose,
-                         "an attribute");
+  const Hdf5Handle space(H5Screate(H5S_SCALAR), H5Sclose, "a scalar space");
+  const Hdf5Handle attribute(H5Acreate2(object, name, type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose,
+                             "an attribute");
   H5Awrite(attribute, type, text.empty() ? " " : text.c_str());
 }
 
@@ -74,8 +56,8 @@ struct Series {
 };
 
 std::vector<std::uint64_t> reserve_series(hid_t file, const Series& series, std::int64_t frames) {
-  const Handle group(H5Gcreate2(file, series.path.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose,
-                     series.path);
+  const Hdf5Handle group(H5Gcreate2(file, series.path.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+                         H5Gclose, series.path);
   set_text_attribute(group, "unit", series.unit);
   const Reserver reserve(H5T_NATIVE_DOUBLE);
   std::vector<std::uint64_t> offsets;
@@ -85,8 +67,8 @@ std::vector<std::uint64_t> reserve_series(hid_t file, const Series& series, std:
 }
 
 FieldStore::GroupPlaces reserve_group(hid_t file, const GroupDescription& group, std::int64_t frames) {
-  const Handle made(H5Gcreate2(file, group.name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose,
-                    group.name);
+  const Hdf5Handle made(H5Gcreate2(file, group.name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose,
+                        group.name);
   const auto nodes = static_cast<hsize_t>(group.nodes), cells = static_cast<hsize_t>(group.cell_count());
   Reserver{H5T_NATIVE_INT64}(made, "cells", {cells, static_cast<hsize_t>(group.kind)}, group.cells.data());
   FieldStore::GroupPlaces places{reserve_series(made, {"position", "m", {nodes, 3}}, frames)};
@@ -105,8 +87,8 @@ std::string frame_name(std::int64_t frame) {
 
 FieldStore::Layout FieldStore::reserve_all(const std::filesystem::path& path,
                                            const std::vector<GroupDescription>& groups, std::int64_t frames) {
-  const Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose,
-                    path.string());
+  const Hdf5Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose,
+                        path.string());
   Layout layout;
   const std::int64_t none = 0;
   layout.count = Reserver{H5T_NATIVE_INT64}(file, "frames_written", {1}, &none);

@@ -35,6 +35,18 @@ const char* name_of(RunStatus status) {
   return "";
 }
 
+const char* name_of(LedgerKind kind) {
+  switch (kind) {
+    case LedgerKind::stored:
+      return "stored";
+    case LedgerKind::dissipated:
+      return "dissipated";
+    case LedgerKind::supplied:
+      return "supplied";
+  }
+  return "";
+}
+
 std::string utc_now() {
   return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
 }
@@ -187,6 +199,7 @@ struct ResultWriter::Content {
       json["peaks"][name] = {{"value", peaks.all()[i].value}, {"time_s", peaks.all()[i].time}};
       json["last"][name] = probe_row[i + 1];
     }
+    for (const auto& line : description.ledger) json["energy"]["kinds"][line.name] = name_of(line.kind);
     for (std::size_t i = 0; rows > 0 && i < description.ledger.size(); ++i)
       json["energy"]["last"][description.ledger[i].name] = energy_row[i + 1];
   }

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "core/errors.hpp"
+#include "core/output/table.hpp"
 
 namespace talus::study {
 namespace {
@@ -27,30 +27,16 @@ Values single(const json& summary, const std::string& pointer) {
   return {{}, {summary.at(place).get<double>()}};
 }
 
-std::vector<std::string> split(const std::string& line) {
-  std::vector<std::string> cells;
-  std::istringstream stream(line);
-  for (std::string cell; std::getline(stream, cell, ',');) cells.push_back(cell);
-  return cells;
-}
-
 Values history(const HistoryQuantity& quantity, const fs::path& result) {
-  std::ifstream table(result / "probes.csv");
-  std::string line;
-  std::getline(table, line);
-  const auto names = split(line);
-  const auto column =
-      static_cast<std::size_t>(std::find(names.begin(), names.end(), quantity.column) - names.begin());
-  if (column == names.size())
+  const core::Table table = core::read_table(result / "probes.csv");
+  const auto* column = table.column(quantity.column);
+  if (!column)
     throw core::ConfigError(fmt::format("probes.csv of the runs has no column '{}'", quantity.column));
   Values values;
-  while (std::getline(table, line)) {
-    const auto cells = split(line);
-    if (cells.size() != names.size()) break;  // the end of a run that was cut short
-    const double time = std::stod(cells.front());
-    if (quantity.until && time > *quantity.until) break;
-    values.times.push_back(time);
-    values.numbers.push_back(std::stod(cells[column]));
+  for (std::size_t i = 0; i < table.rows() && table.columns.front()[i] <= quantity.until.value_or(HUGE_VAL);
+       ++i) {
+    values.times.push_back(table.columns.front()[i]);
+    values.numbers.push_back((*column)[i]);
   }
   return values;
 }

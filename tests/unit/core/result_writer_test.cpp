@@ -9,6 +9,8 @@
 #include <pugixml.hpp>
 
 #include "core/errors.hpp"
+#include "core/output/field_reader.hpp"
+#include "core/output/table.hpp"
 #include "tests/support/folder.hpp"
 #include "tests/support/moving_net.hpp"
 
@@ -200,6 +202,50 @@ TEST_CASE("frames hold what the sources gave, and fewer frames than reserved are
   pugi::xml_document xdmf;
   REQUIRE(xdmf.load_file((folder / "result/fields.xdmf").c_str()));
   CHECK(xdmf.select_nodes("//Time").size() == 2);
+}
+
+TEST_CASE("tables and fields read back what was written, without a row that a kill cut short") {
+  Folder folder("read_back");
+  MovingNet net(4), other(3, "other");
+  {
+    ResultWriter writer(options(folder, 3), {&net, &other});
+    net.height = 0.1;
+    writer.write_row(0.5);
+    net.frame = 2;
+    writer.write_fields(0.5);
+  }
+  std::ofstream(folder / "result/probes.csv", std::ios::app) << "1,2";
+  const auto table = core::read_table(folder / "result/probes.csv");
+  CHECK(table.rows() == 1);
+  CHECK(table.column("net.height_m")->front() == 0.1);
+  CHECK(table.column("nothing") == nullptr);
+
+  const core::FieldReader fields(folder / "result/fields.h5");
+  CHECK(fields.times() == std::vector<double>{0.5});
+  REQUIRE(fields.groups().size() == 2);
+  const auto& group = fields.groups().front();
+  CHECK(group.name == "net");
+  CHECK(group.kind == core::CellKind::segment);
+  CHECK(group.nodes == 4);
+  CHECK(group.cells == std::vector<std::int64_t>{0, 1, 1, 2, 2, 3});
+  REQUIRE(group.fields.size() == 2);
+  CHECK(group.fields[0].name == "axial_force");
+  CHECK(group.fields[0].unit == "N");
+  CHECK(group.fields[0].location == core::FieldLocation::cell);
+  CHECK(group.fields[1].components == 3);
+  CHECK(fields.read(group, "position", 0).at(11) == 2 + 11);
+  CHECK(fields.read(group, "axial_force", 0) == std::vector<double>{2002, 2002, 2002});
+}
+
+TEST_CASE("a table that is missing or holds no numbers is an error that names it") {
+  Folder folder("tables");
+  folder.add("words.csv", "a,b\n1,two\n").add("uneven.csv", "a,b\n1\n");
+  CHECK_THROWS_WITH(core::read_table(folder / "none.csv"),
+                    "there is no table " + (folder / "none.csv").string());
+  CHECK_THROWS_WITH(core::read_table(folder / "words.csv"),
+                    "'two' in " + (folder / "words.csv").string() + " is no number");
+  CHECK_THROWS_WITH(core::read_table(folder / "uneven.csv"),
+                    (folder / "uneven.csv").string() + " has a row of 1 cells under 2 names");
 }
 
 TEST_CASE("more frames than reserved are refused") {
