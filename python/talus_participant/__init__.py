@@ -8,7 +8,7 @@ A structural solver joins, says what it is, and answers commands until there are
         for command in participant.commands():
             ...
 
-docs/participants.md tells the whole story; python/examples/ holds complete programs of some 50 lines.
+docs/participants_python.md tells the whole story; python/examples/ holds complete programs of some 50 lines.
 """
 from talus._native import Action, Command, FieldLocation, LedgerKind, Role
 from talus.description import Declaration, Effect, Field, Group, LedgerLine, StepLimit, Surface
