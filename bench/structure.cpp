@@ -55,7 +55,10 @@ double best_seconds(const Work& work) {
 double copy_gb_per_s() {
   std::vector<double> from(1 << 23, 1.0), to(from.size());
   const double seconds = best_seconds([&] {
-    talus::core::parallel_blocks(static_cast<std::int64_t>(from.size()), [&](talus::core::Block r, std::int64_t) { std::copy(&from[r.begin], &from[0] + r.end, &to[r.begin]); });
+    talus::core::parallel_blocks(static_cast<std::int64_t>(from.size()),
+                                 [&](talus::core::Block r, std::int64_t) {
+                                   std::copy(&from[r.begin], &from[0] + r.end, &to[r.begin]);
+                                 });
   });
   return 2e-9 * sizeof(double) * static_cast<double>(from.size()) / seconds;
 }

@@ -79,9 +79,9 @@ struct Declaration {
 /// displacement and velocity hold its present state at every answer, so also after `restore_state`,
 /// `read_checkpoint` and a `report` before the first window.
 struct StructureFields {
-  std::span<const double> force;   ///< N; mean over the window, set on Ω_S
-  std::span<double> displacement;  ///< m; at the window's end
-  std::span<double> velocity;      ///< m/s; at the window's end (explicit leapfrog: half a step before)
+  std::span<const double> force;    ///< N; mean over the window, set on Ω_S
+  std::span<double> displacement;   ///< m; at the window's end
+  std::span<double> velocity;       ///< m/s; at the window's end (explicit leapfrog: half a step before)
   std::span<double> free_velocity;  ///< m/s; a step after `velocity`, if no interface force acted in between;
                                     ///< empty where the particles do not need it
 };
@@ -96,7 +96,7 @@ struct ParticleFields {
   std::span<const double> end_velocity;  ///< m/s; likewise
   std::span<const double> free_velocity;  ///< m/s; the boundary's a step after start_velocity if nothing
                                           ///< touched it; empty where it was not asked for
-  std::span<double> force;               ///< N; that Ω_D receives, mean over the window
+  std::span<double> force;                ///< N; that Ω_D receives, mean over the window
 };
 
 struct JoinOptions {

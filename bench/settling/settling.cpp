@@ -25,7 +25,8 @@ double mean_height(const dem::Spheres& spheres) {
 
 double kinetic_energy(const dem::Spheres& spheres) {
   double sum = 0;
-  for (const dem::Row& v : spheres.velocity) sum += 0.5 * v.w * dem::dot(dem::triple<double>(v), dem::triple<double>(v));
+  for (const dem::Row& v : spheres.velocity)
+    sum += 0.5 * v.w * dem::dot(dem::triple<double>(v), dem::triple<double>(v));
   return sum;
 }
 
@@ -50,10 +51,12 @@ core::ExitCode run(const Options& options) {
   const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const double rate = static_cast<double>(options.count) * static_cast<double>(options.steps) / wall;
   fmt::print(
-      "{{\"peer\":\"talus\",\"n\":{},\"steps\":{},\"settle\":{},\"threads\":{},\"wall_s\":{:.3f},\"particle_steps_per_s\":{:.0f},"
+      "{{\"peer\":\"talus\",\"n\":{},\"steps\":{},\"settle\":{},\"threads\":{},\"wall_s\":{:.3f},\"particle_"
+      "steps_per_s\":{:.0f},"
       "\"mean_z_m\":{:.5f},\"kinetic_J\":{:.5g},\"mean_contacts\":{:.3f},\"searches\":{}}}\n",
-      options.count, options.steps, options.settle, options.threads, wall, rate, mean_height(solver.spheres()),
-      kinetic_energy(solver.spheres()), contacts_a_sphere(solver), solver.searches() - searches_before);
+      options.count, options.steps, options.settle, options.threads, wall, rate,
+      mean_height(solver.spheres()), kinetic_energy(solver.spheres()), contacts_a_sphere(solver),
+      solver.searches() - searches_before);
   return core::ExitCode::success;
 }
 
@@ -66,6 +69,7 @@ int main(int argc, char** argv) {
   app.add_option("--steps", options.steps, "timed steps")->check(CLI::PositiveNumber);
   app.add_option("--settle", options.settle, "steps before the timed ones")->check(CLI::NonNegativeNumber);
   app.add_option("--threads", options.threads, "threads")->check(CLI::PositiveNumber);
-  app.add_option("--write-data", options.write_data, "write the bed as a LIGGGHTS data file and print the box's side instead");
+  app.add_option("--write-data", options.write_data,
+                 "write the bed as a LIGGGHTS data file and print the box's side instead");
   return core::run_main(app, argc, argv, [&] { return run(options); });
 }

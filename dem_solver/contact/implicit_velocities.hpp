@@ -52,8 +52,8 @@ class ImplicitVelocities {
     double elastic = 0, damping = 0;  ///< N, N s/m
     double tangential_stiffness = 0, tangential_damping = 0;  ///< N/m, N s/m
     double coefficient = 0;                                   ///< of friction
-    Triple<double> spring{};                                    ///< N; tangential, at t_n
-    Triple<double> force{};                                     ///< N; found; a guess before
+    Triple<double> spring{};                                  ///< N; tangential, at t_n
+    Triple<double> force{};                                   ///< N; found; a guess before
   };
   /// What moves: velocities at t_n + dt/2 without boundary contact, moved on by what is found.
   struct Bodies {

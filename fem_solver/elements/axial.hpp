@@ -48,9 +48,9 @@ struct TensionOnly {
 ///
 /// The force N t of the textbook form is (A S l/L)(d/l) = (A S/L) d, so neither a square root nor a division
 /// is needed, and a segment squeezed to nothing is as harmless as any other. Valid for any rotation and for
-/// strains where E e is the material's law. A cable (TensionOnly): S < 0 -> S = 0, f = 0, K = 0 (at S = 0 the side that resists counts); U stays at
-/// its minimum -A L S_pre^2/(2 E). Proven by: "the force of a bar and of a cable is the derivative of its
-/// energy" (axial_test.cpp).
+/// strains where E e is the material's law. A cable (TensionOnly): S < 0 -> S = 0, f = 0, K = 0 (at S = 0 the
+/// side that resists counts); U stays at its minimum -A L S_pre^2/(2 E). Proven by: "the force of a bar and
+/// of a cable is the derivative of its energy" (axial_test.cpp).
 template <class Compression>
 struct AxialElement {
   Vector3 reference;

@@ -77,7 +77,9 @@ TEST_CASE("new, lost and reordered columns and another number of rows are told a
 
 TEST_CASE("a table that is missing, ragged or holds a word is refused with file and line") {
   test::Folder folder("regress_table");
-  folder.add("good.csv", "time_s,a\n0,1\n0.5,-2e-3\n").add("ragged.csv", "a,b\n1,2\n3\n").add("word.csv", "a\nx\n");
+  folder.add("good.csv", "time_s,a\n0,1\n0.5,-2e-3\n")
+      .add("ragged.csv", "a,b\n1,2\n3\n")
+      .add("word.csv", "a\nx\n");
   const Table good = read_table(folder / "good.csv");
   CHECK(good.columns == std::vector<std::string>{"time_s", "a"});
   CHECK(good.rows == std::vector<std::vector<double>>{{0, 1}, {0.5, -2e-3}});

@@ -99,10 +99,14 @@ TEST_CASE("scenes the coupler cannot run are refused with the reason") {
 }
 
 TEST_CASE("strong schemes are read with their accelerations, and wrong ones are refused") {
-  const auto with = [](const std::string& scheme) { return complaints_about(sides + "coupling: {" + scheme + "}\n"); };
+  const auto with = [](const std::string& scheme) {
+    return complaints_about(sides + "coupling: {" + scheme + "}\n");
+  };
   CHECK(with("serial_implicit: {}").empty());
   CHECK(with("serial_implicit: {relax: force, predictor: constant, aitken: {initial: 0.3}}").empty());
-  CHECK(with("parallel_implicit: {iqn_ils: {columns: 20, windows: 3}, tolerance: {relative: 1e-4}, not_converged: warning}").empty());
+  CHECK(with("parallel_implicit: {iqn_ils: {columns: 20, windows: 3}, tolerance: {relative: 1e-4}, "
+             "not_converged: warning}")
+            .empty());
   CHECK(with("parallel_explicit: {}").empty());
   CHECK(with("serial_implicit: {aitken: {}, iqn_ils: {}}").size() == 1);
   CHECK(with("serial_implicit: {fixed: {factor: 0}}").size() == 1);
