@@ -39,7 +39,8 @@ void misbehave(const std::string& name) {
   if (name == "killed") raise(SIGKILL);
   if (name == "stopped") raise(SIGSTOP);
   if (name == "asleep") std::this_thread::sleep_for(std::chrono::hours(1));
-  while (name == "busy") {
+  // Volatile, because a compiler may take it that a loop without effects ends.
+  for (volatile bool busy = name == "busy"; busy;) {
   }
   if (name == "throws") throw std::runtime_error("the matrix is singular");
   if (name == "numerical") {
