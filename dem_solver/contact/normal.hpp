@@ -57,7 +57,7 @@ struct Hertz {
 ///     k  · stiffness             · N/m · parameters.normal.x
 ///     kt · tangential stiffness  · N/m · parameters.normal.y
 ///     z  · damping ratio         · 1   · parameters.normal.z      from oscillator_damping_ratio()
-/// Tests: "A linear contact lasts half a period and rebounds as asked", unit "The normal force is the
+/// Its duration and restitution have no test yet. Test: unit "The normal force is the
 /// derivative of its energy".
 struct LinearSpring {
   template <class Real>

@@ -16,8 +16,7 @@ TALUS_INLINE Triple<Real> rolling_velocity(const Touch<Real>& touch) noexcept {
 ///     mu_r · rolling friction coefficient · 1 · parameters.rolling.x
 ///     w    · relative rolling velocity    · rad/s
 /// The torque never reverses the rolling within a step: it is limited to the one that stops it, I w/step.
-/// Without that limit a resting sphere rocks for ever (their figure 5). Test: "A sphere with constant rolling
-/// torque stops after v^2/(2 a)".
+/// Without that limit a resting sphere rocks for ever (their figure 5). No test proves it yet.
 struct ConstantTorque {
   static constexpr int memory_rows = 0;
 
@@ -42,7 +41,7 @@ struct ConstantTorque {
 ///     kn   · normal tangent stiffness             · N/m     · of the normal law
 ///     I    · reduced inertia about the contact    · kg m^2
 ///     Mk   · spring torque on the first sphere    · N m     · memory x y z; turned with the contact plane
-/// Test: "A sphere with elastic-plastic rolling resistance comes to rest and stays there".
+/// No test proves it yet.
 struct ElasticPlasticRolling {
   static constexpr int memory_rows = 1;
 
