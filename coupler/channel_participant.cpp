@@ -51,6 +51,7 @@ ChannelParticipant::ChannelParticipant(std::shared_ptr<Segment> segment, const J
                                   .start = header.coupler_start};
     coupler_ = ProcessHandle(coupler);
     watch_.emplace(coupler, name_of(options.role));
+    ask_for_early_turns();
   }
   auto expected = static_cast<std::uint32_t>(ChannelState::awaited);
   if (!std::atomic_ref(channel_.state)

@@ -42,6 +42,8 @@ class Mapping {
   /// has no mass.
   std::vector<double> boundary_masses(std::span<const double> structure_masses) const;
 
+  /// Boundary node i is structure node i, for all: both sides may use the same arrays.
+  bool is_identity() const { return identity_; }
   Index boundary_nodes() const { return boundary_nodes_; }
   Index structure_nodes() const { return structure_nodes_; }
   /// Bytes of the arrays that one transfer in each direction reads.
@@ -70,7 +72,7 @@ class Mapping {
   };
 
   Index boundary_nodes_ = 0, structure_nodes_ = 0;
-  bool identity_ = false;  ///< boundary node i is structure node i
+  bool identity_ = false;
   PaddedRows to_boundary_;
   Rows to_structure_;
 };

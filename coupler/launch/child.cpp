@@ -10,6 +10,7 @@
 
 #include <cerrno>
 #include <cmath>
+#include <cstdlib>
 
 #include "core/errors.hpp"
 
@@ -24,6 +25,9 @@ constexpr int could_not_start = 127;  // as a shell says it
   prctl(PR_SET_PDEATHSIG, SIGCONT);
   signal(SIGINT, SIG_IGN);
   dup2(STDERR_FILENO, STDOUT_FILENO);
+  // Idle threads of GCC's OpenMP would spin for milliseconds after each loop, on cores that the other
+  // processes of the run need next. A user's own choice stands.
+  if (getenv("OMP_WAIT_POLICY") == nullptr) setenv("GOMP_SPINCOUNT", "1000", 0);
   execvp(arguments[0], arguments);
   _exit(could_not_start);
 }

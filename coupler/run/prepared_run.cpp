@@ -62,8 +62,7 @@ PreparedRun prepare(const PrepareOptions& options) {
   std::optional<InterfacePlan> plan;
   if (run.scene.interface) plan = plan_of(*run.scene.interface);
   run.interface = introduce(*run.session, plan, std::move(complaints));
-  lay_out_arrays(*run.session, run.interface, run.window_length(),
-                 run.scene.coupling.is_implicit() ? BoundaryEnd::always : BoundaryEnd::for_several_steps);
+  lay_out_arrays(*run.session, run.interface, run.window_length(), run.scene.coupling.order());
   run.limits = check_limits(*run.session, run.window_length());
   return run;
 }

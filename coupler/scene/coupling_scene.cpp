@@ -86,4 +86,11 @@ void describe(core::Fields& fields, CouplingScene& coupling) {
                  {"parallel_implicit", "both at the same time, repeated until they agree"}});
 }
 
+Order CouplingScene::order() const {
+  if (std::holds_alternative<SerialImplicitScene>(scheme) ||
+      std::holds_alternative<ParallelImplicitScene>(scheme))
+    return Order::iterated;
+  return std::holds_alternative<ParallelExplicitScene>(scheme) ? Order::together : Order::in_turn;
+}
+
 }  // namespace talus::coupler

@@ -6,6 +6,7 @@
 
 #include "core/scene/fields.hpp"
 #include "coupler/schemes/unknowns.hpp"
+#include "coupler/session/introduction.hpp"
 
 /// `coupling:` how often and in which order the two sides hear of each other.
 namespace talus::coupler {
@@ -70,10 +71,7 @@ struct CouplingScene {
   double join_timeout = 60;      ///< s
   SchemeScene scheme;            ///< absent: serial_explicit
 
-  bool is_implicit() const {
-    return std::holds_alternative<SerialImplicitScene>(scheme) ||
-           std::holds_alternative<ParallelImplicitScene>(scheme);
-  }
+  Order order() const;
 };
 void describe(core::Fields& fields, CouplingScene& coupling);
 

@@ -41,7 +41,10 @@ Exchange::Exchange(Session& session, const mesh::Mapping& mapping, double window
       structure_(side(session, Role::structure)),
       particles_(side(session, Role::particles)),
       structure_work_(meaning_for(structure_, window_length)),
-      boundary_work_(meaning_for(particles_, window_length)) {}
+      boundary_work_(meaning_for(particles_, window_length)),
+      one_set_(structure_.force.data() == particles_.force.data()),
+      one_work_(one_set_ &&
+                meaning_for(structure_, window_length) == meaning_for(particles_, window_length)) {}
 
 void Exchange::advance_particles(const Window& window, int iteration) {
   session_.ask(particles_.peer, advance(window, iteration));
@@ -49,6 +52,7 @@ void Exchange::advance_particles(const Window& window, int iteration) {
 
 void Exchange::advance_structure(const Window& window, int iteration) {
   session_.ask(structure_.peer, advance(window, iteration));
+  structure_work_.end(structure_.force, structure_.displacement);
 }
 
 void Exchange::advance_both(const Window& window, int iteration) {
@@ -56,6 +60,7 @@ void Exchange::advance_both(const Window& window, int iteration) {
   session_.post(structure_.peer, advance(window, iteration));
   session_.wait_answer(particles_.peer);
   session_.wait_answer(structure_.peer);
+  structure_work_.end(structure_.force, structure_.displacement);
 }
 
 void Exchange::save_states(const Window& window) {
@@ -79,23 +84,27 @@ bool Exchange::touching() const {
 }
 
 void Exchange::forces_to_structure(const Window& window) {
-  const bool touches = touching();
-  if (!touches && !touched_) return;
-  touched_ = touches;
-  mapping_.to_structure(particles_.force, structure_.force);
-  boundary_work_.begin(particles_.force, {particles_.displacement, particles_.velocity}, window.length);
+  if (!one_set_) {
+    const bool touches = touching();
+    if (!touches && !touched_) return;
+    touched_ = touches;
+    mapping_.to_structure(particles_.force, structure_.force);
+  }
   structure_work_.begin(structure_.force, {structure_.displacement, structure_.velocity}, window.length);
+  if (!one_work_)
+    boundary_work_.begin(particles_.force, {particles_.displacement, particles_.velocity}, window.length);
 }
 
 void Exchange::motion_to_boundary() {
   const auto reached = particles_.end_displacement;
-  if (!reached.empty()) boundary_work_.end(reached);
-  mapping_.to_boundary(structure_.displacement, particles_.displacement);
-  mapping_.to_boundary(structure_.velocity, particles_.velocity);
-  if (!structure_.free_velocity.empty())
-    mapping_.to_boundary(structure_.free_velocity, particles_.free_velocity);
-  structure_work_.end(structure_.displacement);
-  if (reached.empty()) boundary_work_.end(particles_.displacement);
+  if (!reached.empty()) boundary_work_.end(particles_.force, reached);
+  if (!one_set_) {
+    mapping_.to_boundary(structure_.displacement, particles_.displacement);
+    mapping_.to_boundary(structure_.velocity, particles_.velocity);
+    if (!structure_.free_velocity.empty())
+      mapping_.to_boundary(structure_.free_velocity, particles_.free_velocity);
+  }
+  if (reached.empty()) boundary_work_.end(particles_.force, particles_.displacement);
 }
 
 void Exchange::extrapolate_boundary_end(const Window& window) {

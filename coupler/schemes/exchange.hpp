@@ -21,7 +21,8 @@ struct Window {
 Command advance(const Window& window, int iteration = 0);
 
 /// What a coupling scheme is written in: the two sides, and the mapping between their arrays, which stand in
-/// shared memory; values are mapped straight from one side's array into the other's.
+/// shared memory; values are mapped straight from one side's array into the other's. Where Ω_D is Ω_S and the
+/// sides run in turn, both have the same arrays, and there is nothing to map.
 class Exchange {
  public:
   /// A side's arrays, 3 values a node. Of the structure only the first three exist.
@@ -47,9 +48,11 @@ class Exchange {
   void restore_states(const Window& window);
 
   // Explicit schemes: straight from array to array.
-  /// f_S = W^T f_D. Skipped while nothing touches: the forces of the last window were zero, as are these.
+  /// f_S = W^T f_D. Skipped while nothing touches: the forces of the last window were zero, as are these; and
+  /// where both sides use the same arrays.
   void forces_to_structure(const Window& window);
-  /// u_D = W u_S, v_D = W v_S, as the boundary's motion at the start of the next window.
+  /// u_D = W u_S, v_D = W v_S, as the boundary's motion at the start of the next window. Nothing to do where
+  /// both sides use the same arrays.
   void motion_to_boundary();
   /// The boundary's motion at the window's end as the start's motion promises it: u + v length, v. Only for
   /// particles that take several steps a window; others do not look at it.
@@ -67,7 +70,7 @@ class Exchange {
 
   /// Work since the start, J.
   double work_on_structure() const { return structure_work_.joules(); }
-  double work_on_boundary() const { return boundary_work_.joules(); }
+  double work_on_boundary() const { return one_work_ ? work_on_structure() : boundary_work_.joules(); }
   /// Whether the particles' last forces are not all zero.
   bool touching() const;
 
@@ -76,6 +79,8 @@ class Exchange {
   const mesh::Mapping& mapping_;
   Side structure_, particles_;
   WorkMeter structure_work_, boundary_work_;
+  bool one_set_;                         ///< both sides have the same arrays
+  bool one_work_;                        ///< and take their forces the same way, so that their works are one
   std::vector<double> structure_start_;  ///< displacement at the start of a window that is iterated
   bool touched_ = false;
 };

@@ -126,12 +126,13 @@ bool takes_several_steps(const Declaration& declaration, double window_length) {
 }
 
 void lay_out_arrays(Session& session, const std::optional<Interface>& interface, double window_length,
-                    BoundaryEnd boundary_end) {
+                    Order order) {
   const bool free_velocity = needs_free_velocity(session, window_length);
-  if (free_velocity && boundary_end == BoundaryEnd::always)
+  if (free_velocity && order == Order::iterated)
     throw core::ConfigError(
         "particles.implicit_contact is for the explicit schemes of 'coupling'; a strong scheme iterates "
         "instead");
+  bool needs_end = false;
   for (Peer* peer : session.peers()) {
     Session::request_array(*peer, ArrayName::outputs, peer->output_arrays().size());
     if (!interface) continue;
@@ -142,12 +143,14 @@ void lay_out_arrays(Session& session, const std::optional<Interface>& interface,
     }
     if (free_velocity) Session::request_array(*peer, ArrayName::free_velocity, values);
     if (is_structure) continue;
-    if (boundary_end != BoundaryEnd::always && !takes_several_steps(peer->declaration(), window_length))
-      continue;
+    needs_end = order == Order::iterated || takes_several_steps(peer->declaration(), window_length);
+    if (!needs_end) continue;
     Session::request_array(*peer, ArrayName::end_displacement, values);
     Session::request_array(*peer, ArrayName::end_velocity, values);
   }
-  session.create_arrays();
+  const bool one_set =
+      interface && order == Order::in_turn && !needs_end && interface->tie.mapping.is_identity();
+  session.create_arrays(one_set ? ArraySets::one : ArraySets::one_each);
 }
 
 }  // namespace talus::coupler

@@ -44,12 +44,16 @@ bool takes_several_steps(const Declaration& declaration, double window_length);
 /// @throws core::ConfigError where the structure cannot say it, or a side takes several steps a window (s)
 bool needs_free_velocity(Session& session, double window_length);
 
-/// Whether the particles get the boundary's motion at the window's end: those that take several steps, or
-/// everybody because the scheme iterates on it.
-enum class BoundaryEnd { for_several_steps, always };
+/// How a scheme lets the two sides run over a window, which decides what arrays they need.
+enum class Order {
+  in_turn,   ///< one after the other: where Ω_D is Ω_S, both use the same arrays and nothing is copied
+  together,  ///< at the same time: each has its own
+  iterated,  ///< again and again: the particles also get the boundary at the window's end
+};
 
-/// Sizes every array of every participant and makes the data block.
+/// Sizes every array of every participant and makes the data block. Particles that take several steps a
+/// window get the boundary at the window's end, in arrays of their own, whatever the order.
 void lay_out_arrays(Session& session, const std::optional<Interface>& interface, double window_length,
-                    BoundaryEnd boundary_end = BoundaryEnd::for_several_steps);
+                    Order order = Order::together);
 
 }  // namespace talus::coupler

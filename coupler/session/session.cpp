@@ -21,6 +21,7 @@ Session::Session(std::shared_ptr<Segment> segment, SessionOptions options)
   const ProcessIdentity self = this_process();
   control_.header.coupler_start = self.start;
   control_.header.coupler_pid = self.pid;
+  ask_for_early_turns();
 }
 
 Session::~Session() {
@@ -123,12 +124,22 @@ void Session::request_array(Peer& peer, ArrayName name, std::size_t count) {
   peer.channel().arrays[static_cast<std::size_t>(name)].count = count;
 }
 
-void Session::create_arrays() {
+void Session::create_arrays(ArraySets sets) {
   std::uint64_t bytes = 0;
+  const auto place = [&bytes](ArraySlot& slot) {
+    slot.offset = bytes;
+    bytes += (slot.count * sizeof(double) + array_alignment - 1) / array_alignment * array_alignment;
+  };
   for (const auto& peer : peers_) {
-    for (auto& slot : peer->channel().arrays) {
-      slot.offset = bytes;
-      bytes += (slot.count * sizeof(double) + array_alignment - 1) / array_alignment * array_alignment;
+    auto& slots = peer->channel().arrays;
+    if (sets == ArraySets::one && peer != peers_.front()) {
+      ArraySlot& own_outputs = slots[static_cast<std::size_t>(ArrayName::outputs)];
+      const auto output_values = own_outputs.count;
+      slots = peers_.front()->channel().arrays;
+      own_outputs.count = output_values;
+      place(own_outputs);
+    } else {
+      std::for_each(slots.begin(), slots.end(), place);
     }
   }
   phase_ = Phase::running;

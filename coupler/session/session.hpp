@@ -13,6 +13,10 @@ namespace talus::coupler {
 /// Thrown out of a wait before the first window when the user wants to stop.
 struct Interrupted {};
 
+/// Whether each participant has interface arrays of its own, or all look at the same. Output values are each
+/// one's own.
+enum class ArraySets { one_each, one };
+
 struct SessionOptions {
   double timeout = 300;      ///< s that a participant may take for an answer
   double join_timeout = 60;  ///< s from the start until a participant has joined
@@ -44,7 +48,7 @@ class Session {
   transport::Message receive(Peer& peer, const std::string& what);
   void send(Peer& peer, transport::MessageKind kind, ByteView bytes);
   /// Makes the data block, once the channels' array sizes are set (`request_array`).
-  void create_arrays();
+  void create_arrays(ArraySets sets = ArraySets::one_each);
   static void request_array(Peer& peer, transport::ArrayName name, std::size_t count);
 
   // From here on in windows.

@@ -5,14 +5,20 @@
 #include <atomic>
 #include <cstdint>
 
-/// Sleeping until the other side has done its part. Nobody spins: with three processes on two cores spinning
-/// takes the core the other side needs.
+/// Waiting until the other side has done its part. Docs: docs/coupling.md, "What a window costs".
 namespace talus::coupler::transport {
+
+/// Asks the scheduler to let this thread run soon after it is woken, also while others keep the cores busy: a
+/// short time slice in exchange for an early turn. A window is a chain of wake-ups; each of them could
+/// otherwise wait for the end of a slice of somebody else, some milliseconds. Kernels before 6.12 do not know
+/// the request and leave things as they are.
+void ask_for_early_turns() noexcept;
 
 /// Longest sleep without a look around, so that a death is noticed within it.
 inline constexpr double slice_seconds = 0.05;
 
-/// True when posted, false after a slice. Uses the monotonic clock: setting the machine's time does not
+/// True when posted, false after a slice. Sleeps, but for a moment before in which it offers the core to
+/// others (`YieldingWait` in signal.cpp). Uses the monotonic clock: setting the machine's time does not
 /// lengthen a wait.
 bool wait_slice(sem_t& semaphore) noexcept;
 

@@ -57,7 +57,7 @@ void run_in_processes(const std::filesystem::path& scene, const std::filesystem:
   test::Program run({TALUS_BINARY_DIR "/bin/talus", "run", scene.string(), "--out", folder.string(),
                      "--quiet", "--threads", threads},
                     folder.string() + ".txt");
-  const auto end = run.wait(std::chrono::seconds(60));
+  const auto end = run.wait(std::chrono::seconds(120));
   INFO(end.output);
   REQUIRE(end.code == 0);
 }

@@ -16,9 +16,10 @@ using Catch::Matchers::Matches;
 
 namespace {
 
-/// A fault is noticed within a slice of 50 ms and everybody is gone within a grace of 1 s; the rest is for a
-/// busy machine.
-constexpr auto end_limit = 4s;
+/// A fault is noticed within a slice of 50 ms, or the scene's timeout, and everybody is gone within a grace
+/// of 1 s. The rest is for a busy machine, on which programs take seconds to start: what is tested is that a
+/// run ends at all.
+constexpr auto end_limit = 60s;
 
 std::set<std::string> segments() {
   std::set<std::string> names;
@@ -32,7 +33,7 @@ std::set<std::string> segments() {
 struct Faults {
   std::string structure = "none", particles = "none";
   int at = 20;
-  std::string coupling = "timeout: 2 s, join_timeout: 2 s";
+  std::string coupling = "timeout: 60 s, join_timeout: 60 s";
 };
 
 /// `talus run` on two dummy solvers of which one misbehaves.
@@ -57,10 +58,10 @@ class Run {
                      folder_.path() / "output.txt");
   }
 
-  /// Sleeps until the run has written rows, and remembers who takes part.
-  void wait_for_rows() {
-    const auto deadline = std::chrono::steady_clock::now() + 20s;
-    while (rows() < 5) {
+  /// Sleeps until the run has written rows, one at the start of each window, and remembers who takes part.
+  void wait_for_rows(int count = 5) {
+    const auto deadline = std::chrono::steady_clock::now() + end_limit;
+    while (rows() < count) {
       REQUIRE(std::chrono::steady_clock::now() < deadline);
       std::this_thread::sleep_for(5ms);
     }
@@ -88,7 +89,7 @@ class Run {
   test::Ended ended() {
     const auto begin = std::chrono::steady_clock::now();
     const test::Ended end = program_->wait();
-    CHECK(std::chrono::steady_clock::now() - begin < end_limit + 2s);  // 2 s: the scene's timeouts
+    CHECK(std::chrono::steady_clock::now() - begin < end_limit);
     CHECK(test::children_of(program_->pid()).empty());
     for (const auto& child : children_) CHECK_FALSE(test::exists(child.pid));
     CHECK(segments() == before_);
@@ -147,21 +148,21 @@ TEST_CASE("a solver that never joins is named after the join timeout and killed"
 
 TEST_CASE("a solver that stops answering is named as hanging after the timeout, be it stopped or busy") {
   const std::string how = GENERATE("stopped", "busy");
-  Run run({.structure = how, .coupling = "timeout: 0.5 s"});
+  Run run({.structure = how, .coupling = "timeout: 2 s"});
   const auto end = run.ended();
   CHECK(end.code == transport);
   CHECK_THAT(end.output, Contains("structure (dummy_structure, pid ") &&
-                             Contains("gave no answer for 0.5 s (hangs; its process ") &&
+                             Contains("gave no answer for 2 s (hangs; its process ") &&
                              Contains(how == "busy" ? "process runs" : "process is stopped") &&
                              Contains("in window 20"));
 }
 
 TEST_CASE("a solver that never introduces itself is named as hanging") {
-  Run run({.particles = "asleep", .at = -1, .coupling = "timeout: 0.5 s"});
+  Run run({.particles = "asleep", .at = -1, .coupling = "timeout: 2 s"});
   const auto end = run.ended();
   CHECK(end.code == transport);
-  CHECK_THAT(end.output, Contains("particles") && Contains("gave no answer for 0.5 s") &&
-                             Contains("ask for its boundary"));
+  CHECK_THAT(end.output,
+             Contains("particles") && Contains("gave no answer for 2 s") && Contains("ask for its boundary"));
 }
 
 TEST_CASE("what a solver throws is said once, with its kind's exit code") {
@@ -188,9 +189,10 @@ TEST_CASE("what a solver throws is said once, with its kind's exit code") {
 
 TEST_CASE("when the coupler is killed, its solvers say so and end, whatever they do") {
   const std::string how = GENERATE("none", "stopped", "busy");
-  Run run({.structure = how, .at = 500, .coupling = "timeout: 600 s"});
-  run.wait_for_rows();
-  if (how != "none") std::this_thread::sleep_for(2500ms);  // window 500 is reached: each takes at least 2 ms
+  constexpr int window = 20;
+  Run run({.structure = how, .at = window, .coupling = "timeout: 600 s"});
+  run.wait_for_rows(window + 1);  // the row at the start of the window in which the structure misbehaves
+  std::this_thread::sleep_for(100ms);
   run.program().signal(SIGKILL);
   CHECK(run.program().wait().code == -1);
   const auto deadline = std::chrono::steady_clock::now() + end_limit;

@@ -22,7 +22,7 @@ class CoupledPair {
         std::make_unique<ParticipantThread>(segment_, coupler::Role::particles, std::move(particles));
     session_.wait_joined();
     interface_ = coupler::introduce(session_, coupler::identical_surfaces());
-    coupler::lay_out_arrays(session_, interface_, window_length, coupler::BoundaryEnd::always);
+    coupler::lay_out_arrays(session_, interface_, window_length, coupler::Order::iterated);
     exchange_.emplace(session_, interface_->tie.mapping, window_length);
   }
   ~CoupledPair() { session_.abort("the test is over"); }

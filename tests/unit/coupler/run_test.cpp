@@ -35,10 +35,10 @@ TEST_CASE("work is force times path, window by window") {
   WorkMeter meter(ForceMeaning::mean);
   const std::vector<double> force{0, 2, -1}, start{5, 1, 1}, end{7, 4, 3}, still{0, 0, 0};
   meter.begin(force, {start, still}, 0.1);
-  meter.end(end);
+  meter.end(force, end);
   CHECK(meter.joules() == 2 * (4 - 1) + -1 * (3 - 1));
   meter.begin(force, {end, still}, 0.1);
-  meter.end(end);  // nothing moved
+  meter.end(force, end);  // nothing moved
   CHECK(meter.joules() == 4);
 }
 
@@ -52,7 +52,7 @@ TEST_CASE("the work of forces at a window's start is what the leapfrog's kinetic
     meter.begin(force, {position, velocity}, step);
     velocity[0] += step * force[0] / mass;
     position[0] += step * velocity[0];
-    meter.end(position);
+    meter.end(force, position);
   }
   // f = m (v+ - v-)/L, so f . (v+ + v-) L/2 = m (v+^2 - v-^2)/2, which telescopes.
   const double gained = 0.5 * mass * (velocity[0] * velocity[0] - first_velocity * first_velocity);
