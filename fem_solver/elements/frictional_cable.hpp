@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Geometry>
 #include <span>
 #include <vector>
 
@@ -60,7 +61,8 @@ class FrictionalCable {
     }
   }
 
-  /// The change of segment_forces along a change of the chords with the material held.
+  /// The change of segment_forces along a change of the chords with the material held, slack segments as if
+  /// taut.
   template <class Chords, class ChordChanges, class Sink>
   void held_stiffness_product(const Chords& chords, const ChordChanges& changes,
                               std::span<const double> material, const Sink& sink) const noexcept {
@@ -68,7 +70,7 @@ class FrictionalCable {
       const RopeSegment segment(chords(i), properties_.gap);
       const Vector3 change = changes(i);
       const double q = segment.length / material[i];
-      const double N_change = properties_.law.tension_slope(q) / material[i] * segment.direction.dot(change);
+      const double N_change = properties_.law.taut_slope(q) / material[i] * segment.direction.dot(change);
       sink(i, Vector3(N_change * segment.direction +
                       properties_.law.tension(q) * segment.curvature_product(change)));
     }

@@ -19,6 +19,10 @@ struct Triple {
   Real x, y, z;
 };
 template <class Real>
+Triple<Real> sum(const Triple<Real>& a, const Triple<Real>& b) noexcept {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+template <class Real>
 Real dot(const Triple<Real>& a, const Triple<Real>& b) noexcept {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
@@ -75,9 +79,21 @@ struct MembraneTriangle {
     const auto& [a1, a2] = deformation.tangents;
     const Real xx = volume * s.xx, yy = volume * s.yy, xy = volume * s.xy;
     // tractions on the faces across the material axes
-    const Triple<Real> t1{xx * a1.x + xy * a2.x, xx * a1.y + xy * a2.y, xx * a1.z + xy * a2.z};
-    const Triple<Real> t2{yy * a2.x + xy * a1.x, yy * a2.y + xy * a1.y, yy * a2.z + xy * a1.z};
+    const Triple<Real> t1 = combine({xx, xy}, a1, a2), t2 = combine({xy, yy}, a1, a2);
     return {combine(gradient[0], t1, t2), combine(gradient[1], t1, t2)};
+  }
+
+  /// Changes of `force` along changes of the displacements, without forming K.
+  std::array<Triple<Real>, 2> force_change(const Deformation& deformation, const PlaneStress<Real>& s,
+                                           const PlaneMatrix& moduli,
+                                           const std::array<Triple<Real>, 2>& changes) const noexcept {
+    const Triple<Real> h1 = displacement_gradient(changes, 0), h2 = displacement_gradient(changes, 1);
+    const auto& [a1, a2] = deformation.tangents;
+    const PlaneVector strain_change(dot(a1, h1), dot(a2, h2), dot(a1, h2) + dot(a2, h1));
+    const PlaneVector stress_change = moduli * strain_change;
+    const auto by_stress = force(deformation, {stress_change[0], stress_change[1], stress_change[2]});
+    const auto by_turning = force({{h1, h2}, {}}, s);
+    return {sum(by_stress[0], by_turning[0]), sum(by_stress[1], by_turning[1])};
   }
 
  private:

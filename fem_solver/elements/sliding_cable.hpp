@@ -55,15 +55,14 @@ struct SlidingCable {
   /// The change of segment_forces along a change of the chords.
   template <class Chords, class Changes, class Sink>
   void stiffness_product(const Chords& chords, const Changes& changes, const Sink& sink) const noexcept {
-    double stretching = 0;
-    for (std::size_t i = 0; i < chords.size(); ++i)
-      stretching += RopeSegment(chords(i), gap).direction.dot(changes(i));
     const double q = length(chords) / reference_length;
-    const double N = law.tension(q), N_change = law.tension_slope(q) / reference_length * stretching;
-    for (std::size_t i = 0; i < chords.size(); ++i) {
-      const RopeSegment segment(chords(i), gap);
-      sink(i, Vector3(N_change * segment.direction + N * segment.curvature_product(changes(i))));
-    }
+    product(chords, changes, {law.tension(q), law.tension_slope(q)}, sink);
+  }
+  /// The same as if a slack rope were taut: what it may snap to, for step limits.
+  template <class Chords, class Changes, class Sink>
+  void taut_stiffness_product(const Chords& chords, const Changes& changes, const Sink& sink) const noexcept {
+    const double q = length(chords) / reference_length;
+    product(chords, changes, {law.tension(q), law.taut_slope(q)}, sink);
   }
 
   /// sink(i, j, block): derivative of segment i's force with respect to chord j. Every pair (i, j) once, in
@@ -79,6 +78,24 @@ struct SlidingCable {
         if (i == j) block += N * near.curvature();
         sink(i, j, block);
       }
+    }
+  }
+
+ private:
+  struct Axial {
+    double tension, slope;  // N, dN/dq
+  };
+  template <class Chords, class Changes, class Sink>
+  void product(const Chords& chords, const Changes& changes, const Axial& axial,
+               const Sink& sink) const noexcept {
+    double stretching = 0;
+    for (std::size_t i = 0; i < chords.size(); ++i)
+      stretching += RopeSegment(chords(i), gap).direction.dot(changes(i));
+    const double tension_change = axial.slope / reference_length * stretching;
+    for (std::size_t i = 0; i < chords.size(); ++i) {
+      const RopeSegment segment(chords(i), gap);
+      sink(i, Vector3(tension_change * segment.direction +
+                      axial.tension * segment.curvature_product(changes(i))));
     }
   }
 };

@@ -43,6 +43,7 @@ void ExplicitSolver::archive(core::StateArchive& archive) {
   archive.values("velocity", state_.velocity);
   archive.values("force", state_.force);
   archive.values("reactions", state_.reactions);
+  archive_element_memory(archive, model_);
   archive.count("steps", state_.steps);
   std::vector<double> numbers{state_.previous_step, state_.kick, state_.damped};
   for (const auto& work : state_.works) numbers.insert(numbers.end(), {work.done, work.pending});
@@ -57,6 +58,7 @@ void ExplicitSolver::archive(core::StateArchive& archive) {
 void ExplicitSolver::step(double time, double step) {
   state_.kick = 0.5 * (state_.previous_step + step);
   evaluate_forces(time);
+  accept_memory(model_);
   impose_supports(time, step);
   arrive(time);
   const double activity =
@@ -192,6 +194,7 @@ EnergyBalance ExplicitSolver::balance() {
   for (const auto& part : model_.parts)
     balance.elastic.push_back(
         std::visit([&](const auto& batch) { return batch.energy(displacement); }, part.elements));
+  balance.dissipated = dissipated_by_parts(model_, displacement);
   if (model_.gravity) {
     for (Index node = 0; node < model_.nodes(); ++node)
       balance.gravity -=

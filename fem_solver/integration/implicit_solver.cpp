@@ -54,6 +54,7 @@ void ImplicitSolver::archive(core::StateArchive& archive) {
   archive.values("acceleration", state_.acceleration);
   archive.values("force", state_.force);
   archive.values("reactions", state_.reactions);
+  archive_element_memory(archive, model_);
   archive.count("steps", state_.steps);
   std::vector<double> damped{state_.damped};
   archive.values("damped", damped);
@@ -83,6 +84,7 @@ bool ImplicitSolver::take(const Step& step) {
   }
   update_rates(step.length, state_.displacement);
   total_force(step.time + step.length, state_.displacement, state_.force);
+  accept_memory(model_);
   account(step);
   ++state_.steps;
   return true;
@@ -183,6 +185,7 @@ EnergyBalance ImplicitSolver::balance() {
   for (const auto& part : model_.parts)
     balance.elastic.push_back(
         std::visit([&](const auto& batch) { return batch.energy(state_.displacement); }, part.elements));
+  balance.dissipated = dissipated_by_parts(model_, state_.displacement);
   balance.gravity = -state_.works.gravity;
   balance.bulk_damping = state_.damped;
   balance.loads = state_.works.loads;

@@ -44,10 +44,16 @@ class ImplicitSolver final : public Integrator {
   std::span<const double> reactions() const override { return state_.reactions; }
   /// The balance at the present time; works by the trapezoidal rule over each step.
   EnergyBalance balance() override;
-  void save() override { saved_ = state_; }
+  void save() override {
+    saved_ = state_;
+    saved_memory_ = element_memory(model_);
+  }
   void archive(core::StateArchive& archive) override;
   const char* method() const override { return "fem_solver implicit"; }
-  void restore() override { state_ = saved_; }
+  void restore() override {
+    state_ = saved_;
+    restore_element_memory(model_, saved_memory_);
+  }
 
   struct State {
     std::vector<double> displacement, velocity, acceleration;
@@ -83,6 +89,7 @@ class ImplicitSolver final : public Integrator {
   double alpha_m_, alpha_f_, gamma_, beta_;
   Newton newton_;
   State state_, saved_;
+  std::vector<double> saved_memory_;    ///< of friction, brakes, plasticity
   State before_;                        ///< the start of the step in progress
   std::vector<double> mean_, product_;  ///< velocity inside a step, and stiffness times it
   double force_scale_ = 0;

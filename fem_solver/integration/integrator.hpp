@@ -11,12 +11,13 @@ namespace talus::fem {
 /// Energies at one time level and works up to it (J).
 struct EnergyBalance {
   double kinetic = 0;
-  std::vector<double> elastic;  ///< of each part
-  double gravity = 0;           ///< potential, zero at the reference state
-  double bulk_damping = 0;      ///< dissipated
-  double loads = 0;             ///< supplied by nodal loads
-  double supports = 0;          ///< supplied by prescribed motion
-  double interface = 0;         ///< supplied through the interface
+  std::vector<double> elastic;     ///< of each part
+  std::vector<double> dissipated;  ///< of each part: rope friction, brakes, plastic work
+  double gravity = 0;              ///< potential, zero at the reference state
+  double bulk_damping = 0;         ///< dissipated
+  double loads = 0;                ///< supplied by nodal loads
+  double supports = 0;             ///< supplied by prescribed motion
+  double interface = 0;            ///< supplied through the interface
 };
 
 /// Nodes that receive forces from outside, set before every window. Empty in a run on its own.

@@ -51,6 +51,7 @@ void StaticSolver::advance(double time, double length) {
 void StaticSolver::archive(core::StateArchive& archive) {
   archive.values("displacement", state_.displacement);
   archive.values("reactions", state_.reactions);
+  archive_element_memory(archive, model_);
   fem::archive(archive, state_.works);
 }
 
@@ -82,6 +83,7 @@ void StaticSolver::residual(std::span<const double> displacement, std::span<doub
 void StaticSolver::account(const State& before, const LoadSpan& span) {
   std::vector<double> sum(model_.reference.size()), change(model_.reference.size());
   residual(state_.displacement, sum);
+  accept_memory(model_);
   std::ranges::transform(state_.displacement, before.displacement, change.begin(), std::minus<>{});
   for_each_support(model_, [&](const Support& support, std::size_t dof, std::size_t offset) {
     for (std::size_t c = 0; c < 3; ++c) {
@@ -99,6 +101,7 @@ EnergyBalance StaticSolver::balance() {
   for (const auto& part : model_.parts)
     balance.elastic.push_back(
         std::visit([&](const auto& batch) { return batch.energy(state_.displacement); }, part.elements));
+  balance.dissipated = dissipated_by_parts(model_, state_.displacement);
   balance.gravity = -state_.works.gravity;
   balance.loads = state_.works.loads;
   balance.supports = state_.works.supports;

@@ -32,10 +32,16 @@ class StaticSolver final : public Integrator {
   std::span<const double> velocity() const override { return velocity_; }
   std::span<const double> reactions() const override { return state_.reactions; }
   EnergyBalance balance() override;
-  void save() override { saved_ = state_; }
+  void save() override {
+    saved_ = state_;
+    saved_memory_ = element_memory(model_);
+  }
   void archive(core::StateArchive& archive) override;
   const char* method() const override { return "fem_solver static"; }
-  void restore() override { state_ = saved_; }
+  void restore() override {
+    state_ = saved_;
+    restore_element_memory(model_, saved_memory_);
+  }
 
   /// Newton's report of every load step of the last advance.
   const std::vector<NewtonReport>& reports() const { return reports_; }
@@ -58,8 +64,9 @@ class StaticSolver final : public Integrator {
   StaticOptions options_;
   Newton newton_;
   State state_, saved_;
-  std::vector<double> velocity_;  ///< zero
-  std::vector<double> external_;  ///< N; at the load being solved for
+  std::vector<double> saved_memory_;  ///< of friction, brakes, plasticity
+  std::vector<double> velocity_;      ///< zero
+  std::vector<double> external_;      ///< N; at the load being solved for
   double force_scale_ = 0;
   std::vector<NewtonReport> reports_;
   std::int64_t steps_ = 0;

@@ -125,6 +125,11 @@ void add_part_bounds(const Part& part, const TwoNodeBatch<Compression>& batch,
       shortest_passage(batch, [&](Index e) { return batch.wave_moduli(displacement, e).across; }));
 }
 
+/// Other elements have no closed form: the highest frequency of the structure stands for them.
+template <class Batch>
+void add_part_bounds(const Part&, const Batch&, std::span<const double>, const Damping&,
+                     std::vector<StepBound>&) {}
+
 }  // namespace
 
 std::vector<StepBound> step_bounds(Assembly& assembly, std::span<const double> displacement) {

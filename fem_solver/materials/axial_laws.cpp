@@ -61,6 +61,11 @@ double ElasticPlasticRope::dissipated(const Lengths& lengths, double history) co
   return section.area * lengths.reference * yield_stress * history;
 }
 
+double ElasticPlasticRope::stiffest_slope(const Lengths& lengths, double force) const noexcept {
+  const auto [l, L] = lengths;
+  return force / l + section.area * section.youngs_modulus * l * l / (L * L * L);
+}
+
 BrakeLaw::BrakeLaw(Description description) : description_(std::move(description)) {
   check_table(description_.table);
   if (!(description_.stop_stiffness > 0) || !(description_.stop_width > 0))
@@ -91,6 +96,10 @@ double BrakeLaw::dissipated(const Lengths& lengths, double history) const noexce
   const double m = std::max(history, lengths.current - lengths.reference);
   const double force = table_at(m).force;
   return table_work(m) - force * force / (2 * initial_stiffness_);
+}
+
+double BrakeLaw::stiffest_slope(const Lengths& lengths, double) const noexcept {
+  return initial_stiffness_ + stop_at(lengths.current - lengths.reference).slope;
 }
 
 BrakeLaw::Point BrakeLaw::plastic_at(double elongation, double largest) const noexcept {

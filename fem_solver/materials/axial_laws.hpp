@@ -43,6 +43,8 @@ struct ElasticPlasticRope {
   AxialResponse respond(const Lengths& lengths, double history) const noexcept;
   double stored(const Lengths& lengths, double history) const noexcept;      ///< J
   double dissipated(const Lengths& lengths, double history) const noexcept;  ///< J
+  /// dN/dl of elastic loading at a force: what it may unload to in any step (N/m).
+  double stiffest_slope(const Lengths& lengths, double force) const noexcept;
 };
 
 /// Rope brake: force over elongation from a table, plastic, with an end stop.
@@ -81,6 +83,8 @@ class BrakeLaw {
   AxialResponse respond(const Lengths& lengths, double history) const noexcept;
   double stored(const Lengths& lengths, double history) const noexcept;      ///< J
   double dissipated(const Lengths& lengths, double history) const noexcept;  ///< J
+
+  double stiffest_slope(const Lengths& lengths, double force) const noexcept;  ///< N/m
 
   double travel() const noexcept { return description_.table.back().first; }  ///< m, up to the end stop
   double initial_stiffness() const noexcept { return initial_stiffness_; }

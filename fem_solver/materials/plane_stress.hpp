@@ -89,9 +89,7 @@ struct PlaneElasticity {
   PlaneMatrix compliance() const noexcept;
 };
 
-/// Complains unless a pair of Poisson's ratios given by hand obeys v_xy/E_y = v_yx/E_x within a relative
-/// 1e-6.
-/// @throws core::ConfigError naming both sides
-void check_poisson_pair(const OrthotropicSheet& sheet, double poissons_ratio_yx);
+/// Whether a pair of Poisson's ratios obeys v_xy/E_y = v_yx/E_x within a relative 1e-6.
+bool is_poisson_pair(const OrthotropicSheet& sheet, double poissons_ratio_yx);
 
 }  // namespace talus::fem

@@ -34,7 +34,10 @@ class RopeLaw {
   double tension(double stretch) const noexcept { return section_.area * stress(stretch) * stretch; }
   /// dN/dq; 0 where slack.
   double tension_slope(double stretch) const noexcept {
-    if (stretch <= slack_stretch_) return 0;
+    return stretch <= slack_stretch_ ? 0 : taut_slope(stretch);
+  }
+  /// dN/dq as if the rope were taut.
+  double taut_slope(double stretch) const noexcept {
     return section_.area * (stress(stretch) + section_.youngs_modulus * stretch * stretch);
   }
   double energy_per_length(double stretch) const noexcept {

@@ -27,6 +27,7 @@ class LinearSheet {
     return elasticity_.energy_density(e) + work(prestress_, e);
   }
   PlaneMatrix tangent(const PlaneStrain<double>&) const noexcept { return elasticity_.stiffness(); }
+  PlaneMatrix stiffest_tangent() const noexcept { return elasticity_.stiffness(); }
   SheetState state(const PlaneStrain<double>&) const noexcept { return SheetState::taut; }
 
  private:
@@ -65,6 +66,8 @@ class TensionField {
   double energy_density(const PlaneStrain<double>& strain) const noexcept;
   /// ds/de. Symmetric for ExactWrinkles; see PrincipalWrinkles.
   PlaneMatrix tangent(const PlaneStrain<double>& strain) const noexcept;
+  /// The taut sheet's: what a wrinkled one may snap back to. The exact field's tangent never exceeds it.
+  PlaneMatrix stiffest_tangent() const noexcept { return elasticity_.stiffness(); }
   SheetState state(const PlaneStrain<double>& strain) const noexcept;
 
  private:

@@ -2,11 +2,17 @@
 
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <variant>
 #include <vector>
 
+#include "core/output/checkpoint.hpp"
+#include "fem_solver/model/frictional_cable_batch.hpp"
+#include "fem_solver/model/membrane_batch.hpp"
+#include "fem_solver/model/path_batch.hpp"
+#include "fem_solver/model/rope_batch.hpp"
 #include "fem_solver/model/two_node_batch.hpp"
 
 /// The structure as arrays: what the scene describes, free of YAML, time integration and output.
@@ -19,7 +25,9 @@ namespace talus::fem {
 ///   allocation stiffness_product(u, w, slots, range) (d2U/du2) w stiffness(u, sink) d2U/du2 as 3x3 blocks
 ///   energy(u)                             U (J), zero at the reference state
 ///   add_mass(node_masses)                 lumped (kg)
-using ElementBatch = std::variant<BarBatch, CableBatch>;
+using ElementBatch =
+    std::variant<BarBatch, CableBatch, SlidingCableBatch, PlainMembraneBatch, TensionFieldBatch,
+                 PrincipalTensionFieldBatch, FrictionalCableBatch, BrakeBatch, ElasticPlasticBatch>;
 
 struct Part {
   std::string name;
@@ -77,6 +85,22 @@ struct Model {
   Index nodes() const { return static_cast<Index>(reference.size() / 3); }
   Vector3 position(Index node) const { return Vector3::Map(&reference[3 * static_cast<std::size_t>(node)]); }
 };
+
+/// Keeps what elements with a memory (friction, brakes, plasticity) made of the last internal force. To be
+/// called once a step, after the force at an accepted state.
+void accept_memory(const Model& model) noexcept;
+/// All that elements remember, part by part; part of a run's state as displacements are. Empty where nothing
+/// remembers.
+std::vector<double> element_memory(const Model& model);
+/// @pre values come from element_memory() of this model
+void restore_element_memory(const Model& model, std::span<const double> values);
+/// Writes or reads that memory as a part of a state.
+void archive_element_memory(core::StateArchive& archive, const Model& model);
+
+/// What each part has dissipated by friction or plastic work (J), 0 for those that do not.
+std::vector<double> dissipated_by_parts(const Model& model, std::span<const double> displacement);
+/// Whether a part can dissipate.
+bool dissipates(const ElementBatch& elements);
 
 /// Sums node_masses from the elements. Point masses are added by whoever knows them.
 void lump_masses(Model& model);

@@ -1,34 +1,199 @@
 #include "fem_solver/output/part_fields.hpp"
 
+#include <cmath>
+
 namespace talus::fem {
 namespace {
 
-enum AxialField : std::size_t { axial_force, stress };
+using Displacement = std::span<const double>;
+
+/// A value that every cell of a batch has, or that the batch has as a whole.
+template <class Batch>
+struct CellQuantity {
+  const char* name;
+  const char* unit;
+  double (*value)(const Batch&, Displacement, Index cell);
+};
+template <class Batch>
+struct PartQuantity {
+  const char* name;
+  double (*value)(const Batch&, Displacement);
+};
+
+/// The largest of a cell value.
+template <class Batch, class Value>
+double largest(const Batch& batch, const Value& value) {
+  double result = 0;
+  for (Index e = 0; e < batch.size(); ++e) result = std::max(result, value(e));
+  return result;
+}
 
 template <class Compression>
-void fill(const TwoNodeBatch<Compression>& batch, std::size_t field, std::span<const double> displacement,
-          std::span<double> values) {
-  for (Index e = 0; e < batch.size(); ++e) {
-    const auto i = static_cast<std::size_t>(e);
-    values[i] = field == axial_force ? batch.axial_force(displacement, e) : batch.stress(displacement, e);
-  }
+struct Quantities {
+  using Batch = TwoNodeBatch<Compression>;
+  static constexpr core::CellKind kind = core::CellKind::segment;
+  static constexpr CellQuantity<Batch> cells[] = {
+      {"axial_force", "N", [](const Batch& b, Displacement u, Index e) { return b.axial_force(u, e); }},
+      {"stress", "Pa", [](const Batch& b, Displacement u, Index e) { return b.stress(u, e); }}};
+  static constexpr PartQuantity<Batch> whole[] = {{"axial_force_max_N", [](const Batch& b, Displacement u) {
+                                                     return largest(
+                                                         b, [&](Index e) { return b.axial_force(u, e); });
+                                                   }}};
+};
+
+struct RopeQuantities {
+  using Batch = SlidingCableBatch;
+  static constexpr core::CellKind kind = core::CellKind::segment;
+  static constexpr CellQuantity<Batch> cells[] = {
+      {"axial_force", "N", [](const Batch& b, Displacement u, Index) { return b.tension(u); }},
+      {"stress", "Pa", [](const Batch& b, Displacement u, Index) { return b.stress(u); }}};
+  static constexpr PartQuantity<Batch> whole[] = {
+      {"axial_force_max_N", [](const Batch& b, Displacement u) { return b.tension(u); }},
+      {"elongation_m",
+       [](const Batch& b, Displacement u) { return b.length(u) - b.line().reference_length(); }}};
+};
+
+struct FrictionalRopeQuantities {
+  using Batch = FrictionalCableBatch;
+  static constexpr core::CellKind kind = core::CellKind::segment;
+  static constexpr CellQuantity<Batch> cells[] = {
+      {"axial_force", "N", [](const Batch& b, Displacement u, Index e) { return b.tension(u, e); }},
+      {"stress", "Pa", [](const Batch& b, Displacement u, Index e) { return b.stress(u, e); }},
+      {"slip", "m", [](const Batch& b, Displacement, Index e) { return b.slip(e); }}};
+  static constexpr PartQuantity<Batch> whole[] = {
+      {"axial_force_max_N",
+       [](const Batch& b, Displacement u) {
+         double result = 0;
+         for (Index e = 0; e < b.line().segments(); ++e) result = std::max(result, b.tension(u, e));
+         return result;
+       }},
+      {"elongation_m",
+       [](const Batch& b, Displacement u) { return b.length(u) - b.line().reference_length(); }},
+      {"slip_max_m",
+       [](const Batch& b, Displacement) {
+         double result = 0;
+         for (Index e = 0; e < b.line().segments(); ++e)
+           if (std::abs(b.slip(e)) > std::abs(result)) result = b.slip(e);
+         return result;
+       }},
+      {"friction_J", [](const Batch& b, Displacement) { return b.dissipated(); }}};
+};
+
+/// Brakes and elastic-plastic ropes; what is kept is the travel (m) of the one, the plastic strain of the
+/// other.
+template <class Law>
+struct PathQuantities {
+  using Batch = PathBatch<Law>;
+  static constexpr bool is_brake = std::is_same_v<Law, BrakeLaw>;
+  static constexpr core::CellKind kind = core::CellKind::segment;
+  static constexpr CellQuantity<Batch> cells[] = {
+      {"axial_force", "N", [](const Batch& b, Displacement u, Index e) { return b.axial_force(u, e); }},
+      {"elongation", "m", [](const Batch& b, Displacement u, Index e) { return b.elongation(u, e); }},
+      {is_brake ? "brake_travel" : "plastic_strain", is_brake ? "m" : "1",
+       [](const Batch& b, Displacement, Index e) { return b.kept(e); }}};
+  static constexpr PartQuantity<Batch> whole[] = {
+      {"axial_force_max_N",
+       [](const Batch& b, Displacement u) {
+         return largest(b, [&](Index e) { return b.axial_force(u, e); });
+       }},
+      {is_brake ? "travel_max_m" : "plastic_strain_max_1",
+       [](const Batch& b, Displacement) { return largest(b, [&](Index e) { return b.kept(e); }); }},
+      {"dissipated_J", [](const Batch& b, Displacement u) { return b.dissipated(u); }}};
+};
+
+double larger_principal(const PlaneStress<double>& s) {
+  return 0.5 * (s.xx + s.yy) + std::hypot(0.5 * (s.xx - s.yy), s.xy);
 }
+
+template <class Law>
+struct MembraneQuantities {
+  using Batch = MembraneBatch<Law>;
+  static constexpr core::CellKind kind = core::CellKind::triangle;
+  static double area_in(const Batch& b, Displacement u, SheetState state) {
+    double sum = 0;
+    for (Index e = 0; e < b.size(); ++e)
+      if (b.state(u, e) == state) sum += b.triangle(e).volume / b.part().thickness;
+    return sum;
+  }
+  static constexpr CellQuantity<Batch> cells[] = {
+      {"stress_xx", "Pa", [](const Batch& b, Displacement u, Index e) { return b.stress(u, e).xx; }},
+      {"stress_yy", "Pa", [](const Batch& b, Displacement u, Index e) { return b.stress(u, e).yy; }},
+      {"stress_xy", "Pa", [](const Batch& b, Displacement u, Index e) { return b.stress(u, e).xy; }},
+      {"wrinkle_state", "1", [](const Batch& b, Displacement u, Index e) { return double(b.state(u, e)); }}};
+  static constexpr PartQuantity<Batch> whole[] = {
+      {"stress_max_Pa",
+       [](const Batch& b, Displacement u) {
+         return largest(b, [&](Index e) { return larger_principal(b.stress(u, e)); });
+       }},
+      {"wrinkled_area_m2",
+       [](const Batch& b, Displacement u) { return area_in(b, u, SheetState::wrinkled); }},
+      {"slack_area_m2", [](const Batch& b, Displacement u) { return area_in(b, u, SheetState::slack); }}};
+};
+
+/// The quantities of a batch.
+template <class Batch>
+struct QuantitiesOf;
+template <class Compression>
+struct QuantitiesOf<TwoNodeBatch<Compression>> : Quantities<Compression> {};
+template <>
+struct QuantitiesOf<SlidingCableBatch> : RopeQuantities {};
+template <>
+struct QuantitiesOf<FrictionalCableBatch> : FrictionalRopeQuantities {};
+template <class Law>
+struct QuantitiesOf<PathBatch<Law>> : PathQuantities<Law> {};
+template <class Law>
+struct QuantitiesOf<MembraneBatch<Law>> : MembraneQuantities<Law> {};
 
 }  // namespace
 
-core::CellKind cell_kind(const ElementBatch&) {
-  return core::CellKind::segment;
+core::CellKind cell_kind(const ElementBatch& elements) {
+  return std::visit([](const auto& batch) { return QuantitiesOf<std::decay_t<decltype(batch)>>::kind; },
+                    elements);
 }
 
-std::vector<core::FieldDescription> element_fields(const ElementBatch&) {
-  using core::FieldLocation;
-  return {{.name = "axial_force", .unit = "N", .components = 1, .location = FieldLocation::cell},
-          {.name = "stress", .unit = "Pa", .components = 1, .location = FieldLocation::cell}};
+std::vector<core::FieldDescription> element_fields(const ElementBatch& elements) {
+  std::vector<core::FieldDescription> fields;
+  std::visit(
+      [&](const auto& batch) {
+        for (const auto& quantity : QuantitiesOf<std::decay_t<decltype(batch)>>::cells)
+          fields.push_back({.name = quantity.name,
+                            .unit = quantity.unit,
+                            .components = 1,
+                            .location = core::FieldLocation::cell});
+      },
+      elements);
+  return fields;
 }
 
 void fill_element_field(const ElementBatch& elements, std::size_t field, std::span<const double> displacement,
                         std::span<double> values) {
-  std::visit([&](const auto& batch) { fill(batch, field, displacement, values); }, elements);
+  std::visit(
+      [&](const auto& batch) {
+        const auto& quantity = QuantitiesOf<std::decay_t<decltype(batch)>>::cells[field];
+        for (std::size_t e = 0; e < values.size(); ++e)
+          values[e] = quantity.value(batch, displacement, static_cast<Index>(e));
+      },
+      elements);
+}
+
+std::vector<const char*> part_quantities(const ElementBatch& elements) {
+  std::vector<const char*> names;
+  std::visit(
+      [&](const auto& batch) {
+        for (const auto& quantity : QuantitiesOf<std::decay_t<decltype(batch)>>::whole)
+          names.push_back(quantity.name);
+      },
+      elements);
+  return names;
+}
+
+double part_quantity(const ElementBatch& elements, std::size_t quantity,
+                     std::span<const double> displacement) {
+  return std::visit(
+      [&](const auto& batch) {
+        return QuantitiesOf<std::decay_t<decltype(batch)>>::whole[quantity].value(batch, displacement);
+      },
+      elements);
 }
 
 }  // namespace talus::fem

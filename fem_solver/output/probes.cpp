@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/errors.hpp"
+#include "fem_solver/output/part_fields.hpp"
 
 namespace talus::fem {
 namespace {
@@ -43,16 +44,11 @@ void add_vector(std::vector<ProbeColumn>& columns, const std::string& name, cons
 }
 
 void add_part_columns(std::vector<ProbeColumn>& columns, const std::string& probe, const Part& part) {
-  columns.push_back({probe + ".axial_force_max_N", [&part](const Integrator& run) {
-                       return std::visit(
-                           [&](const auto& batch) {
-                             double largest = 0;
-                             for (Index e = 0; e < batch.size(); ++e)
-                               largest = std::max(largest, batch.axial_force(run.displacement(), e));
-                             return largest;
-                           },
-                           part.elements);
-                     }});
+  const std::vector<const char*> names = part_quantities(part.elements);
+  for (std::size_t i = 0; i < names.size(); ++i)
+    columns.push_back({fmt::format("{}.{}", probe, names[i]), [&part, i](const Integrator& run) {
+                         return part_quantity(part.elements, i, run.displacement());
+                       }});
 }
 
 void add_reactions(std::vector<ProbeColumn>& columns, const Model& model) {

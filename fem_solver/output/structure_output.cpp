@@ -56,6 +56,10 @@ void StructureOutput::choose_ledger_lines() {
   for (std::size_t p = 0; p < model_.parts.size(); ++p)
     line("elastic_" + model_.parts[p].name, LedgerKind::stored,
          [p](const EnergyBalance& b) { return b.elastic[p]; });
+  for (std::size_t p = 0; p < model_.parts.size(); ++p)
+    if (dissipates(model_.parts[p].elements))
+      line("dissipated_" + model_.parts[p].name, LedgerKind::dissipated,
+           [p](const EnergyBalance& b) { return b.dissipated[p]; });
   if (model_.gravity) line("gravity", LedgerKind::stored, &EnergyBalance::gravity);
   if (model_.damping.mass > 0 || model_.damping.stiffness > 0)
     line("bulk_damping", LedgerKind::dissipated, &EnergyBalance::bulk_damping);

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/errors.hpp"
+#include "fem_solver/scene/make_elements.hpp"
 #include "fem_solver/scene/node_sets.hpp"
 #include "fem_solver/scene/weld.hpp"
 #include "interface_mesh/surface_checks.hpp"
@@ -136,41 +137,15 @@ void Builder::lead_through(const std::string& name, const PartScene& part, const
   model_.node_sets[name + ".end"] = {nodes.back()};
 }
 
-AxialPart axial_part(const AxialScene& scene) {
-  return {
-      .section = {.area = scene.area, .youngs_modulus = scene.youngs_modulus, .prestress = scene.prestress},
-      .density = scene.density};
-}
-
-void need_segments(const MeshedPart& part, const char* element) {
-  if (part.segments.empty())
-    throw core::ConfigError(
-        fmt::format("{}: structure.parts.{}: a {} needs a shape made of lines, not of triangles",
-                    part.scene->place, part.name, element));
-}
-
-struct ElementMaker {
-  MeshedPart& part;
-  const Model& model;
-
-  ElementBatch operator()(const BarScene& bar) const {
-    need_segments(part, "bar");
-    return BarBatch(axial_part(bar), std::move(part.segments), model.reference);
-  }
-  ElementBatch operator()(const CableScene& cable) const {
-    need_segments(part, "cable");
-    return CableBatch(axial_part(cable), std::move(part.segments), model.reference);
-  }
-};
-
 void Builder::add_elements(MeshedPart& part) {
   std::vector<Index> nodes;
   for (const auto& segment : part.segments) nodes.insert(nodes.end(), segment.begin(), segment.end());
   for (const auto& triangle : part.triangles) nodes.insert(nodes.end(), triangle.begin(), triangle.end());
   std::ranges::sort(nodes);
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-  model_.parts.push_back(
-      {part.name, std::visit(ElementMaker{part, model_}, part.scene->element), std::move(nodes)});
+  const MeshedElements elements{fmt::format("{}: structure.parts.{}", part.scene->place, part.name),
+                                std::move(part.segments), std::move(part.triangles)};
+  model_.parts.push_back({part.name, make_elements(part.scene->element, elements, model_), std::move(nodes)});
 }
 
 std::string label(const char* kind, std::size_t number, const NodeSelection& where) {

@@ -1,35 +1,11 @@
 #include "fem_solver/scene/structure_scene.hpp"
 
 namespace talus::fem {
-namespace {
-
-void describe_axial(core::Fields& fields, AxialScene& axial) {
-  fields.required("area", axial.area, {.unit = "m^2", .range = core::positive, .help = "cross-section"});
-  fields.required("density", axial.density,
-                  {.unit = "kg/m^3", .range = core::positive, .help = "mass over volume"});
-  fields.required("youngs_modulus", axial.youngs_modulus,
-                  {.unit = "Pa",
-                   .range = core::positive,
-                   .help = "between Green-Lagrange strain and second Piola-Kirchhoff stress"});
-  fields.with_default(
-      "prestress", axial.prestress,
-      {.unit = "Pa", .help = "second Piola-Kirchhoff stress of the reference state, tension positive"});
-}
-
-}  // namespace
-
-void describe(core::Fields& fields, BarScene& bar) {
-  describe_axial(fields, bar);
-}
-void describe(core::Fields& fields, CableScene& cable) {
-  describe_axial(fields, cable);
-}
 
 void describe(core::Fields& fields, PartScene& part) {
   part.place = fields.place();
   describe_shape(fields, part.shape);
-  fields.one_of(part.element,
-                {{"bar", "carries tension and compression"}, {"cable", "carries tension only"}});
+  describe_element(fields, part.element);
 }
 
 void describe(core::Fields& fields, DampingScene& damping) {

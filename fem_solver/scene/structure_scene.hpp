@@ -9,24 +9,11 @@
 
 #include "core/scene/fields.hpp"
 #include "fem_solver/scene/conditions.hpp"
+#include "fem_solver/scene/element_scenes.hpp"
 #include "fem_solver/scene/shapes.hpp"
 
 /// The section `structure` of a scene.
 namespace talus::fem {
-
-/// Area, density and elastic law of bars and cables.
-struct AxialScene {
-  double area = 0;            ///< m^2
-  double density = 0;         ///< kg/m^3
-  double youngs_modulus = 0;  ///< Pa
-  double prestress = 0;       ///< Pa, second Piola-Kirchhoff
-};
-struct BarScene : AxialScene {};
-struct CableScene : AxialScene {};
-void describe(core::Fields& fields, BarScene& bar);
-void describe(core::Fields& fields, CableScene& cable);
-
-using ElementScene = std::variant<BarScene, CableScene>;
 
 struct PartScene {
   std::string place;

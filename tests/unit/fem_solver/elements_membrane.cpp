@@ -177,8 +177,8 @@ TEST_CASE("sheets that are not positive definite are refused with their numbers"
   CHECK(refusal({4e9, 1e9, 0.499, 3e8}) == "accepted");
   CHECK_THROWS_AS(PlaneElasticity::from(IsotropicSheet{1e9, 1.0}), core::ConfigError);
   CHECK_THROWS_AS(PlaneElasticity::from(IsotropicSheet{-1e9, 0.3}), core::ConfigError);
-  CHECK_NOTHROW(check_poisson_pair({4e9, 1e9, 0.2, 3e8}, 0.8));
-  CHECK_THROWS_WITH(check_poisson_pair({4e9, 1e9, 0.2, 3e8}, 0.05), Contains("must be v_yx = 0.8"));
+  CHECK(is_poisson_pair({4e9, 1e9, 0.2, 3e8}, 0.8));
+  CHECK_FALSE(is_poisson_pair({4e9, 1e9, 0.2, 3e8}, 0.05));
 }
 
 TEST_CASE("a triangle without area or with an upright material axis is refused with its place") {

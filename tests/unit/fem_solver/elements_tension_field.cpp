@@ -266,9 +266,9 @@ TEST_CASE("packed lanes of a tension field have the bits of one state at a time"
     const Principal principal(law, {0.01, 0, 0});
     PlaneStrain<double> states[Lanes::size()];
     for (auto& state : states) state = random_strain(dice);
-    const PlaneStrain<Lanes> packed{Lanes([&](auto i) { return states[i].xx; }),
-                                    Lanes([&](auto i) { return states[i].yy; }),
-                                    Lanes([&](auto i) { return states[i].shear; })};
+    const PlaneStrain<Lanes> packed{Lanes([&](std::size_t i) { return states[i].xx; }),
+                                    Lanes([&](std::size_t i) { return states[i].yy; }),
+                                    Lanes([&](std::size_t i) { return states[i].shear; })};
     const auto same_bits = [&](const auto& field) {
       const PlaneStress<Lanes> s = field.stress(packed);
       for (std::size_t i = 0; i < Lanes::size(); ++i) {

@@ -1,0 +1,176 @@
+#include "fem_solver/model/membrane_batch.hpp"
+
+#include <utility>
+
+namespace talus::fem {
+namespace {
+
+/// Writes one lane of a pack's triangle; reading it back gives the same bits.
+void put(MembraneTriangle<Lanes>& pack, std::size_t lane, const MembraneTriangle<double>& triangle) {
+  for (std::size_t k = 0; k < 2; ++k) {
+    pack.axes[k].x.set(lane, triangle.axes[k].x);
+    pack.axes[k].y.set(lane, triangle.axes[k].y);
+    pack.axes[k].z.set(lane, triangle.axes[k].z);
+    for (std::size_t i = 0; i < 2; ++i) pack.gradient[i][k].set(lane, triangle.gradient[i][k]);
+  }
+  pack.volume.set(lane, triangle.volume);
+}
+
+MembraneTriangle<double> take(const MembraneTriangle<Lanes>& pack, std::size_t lane) noexcept {
+  const auto triple = [lane](const Triple<Lanes>& v) {
+    return Triple<double>{v.x[lane], v.y[lane], v.z[lane]};
+  };
+  const auto& g = pack.gradient;
+  return {{triple(pack.axes[0]), triple(pack.axes[1])},
+          {{{g[0][0][lane], g[0][1][lane]}, {g[1][0][lane], g[1][1][lane]}}},
+          pack.volume[lane]};
+}
+
+using LaneNodes = std::array<Index, Lanes::size()>;
+
+/// Differences of the displacements of two corners, for every lane.
+Triple<Lanes> gather_difference(const double* u, const LaneNodes& from, const LaneNodes& to) noexcept {
+  const auto component = [&](std::size_t c) {
+    return Lanes([&](std::size_t lane) {
+      return u[3 * static_cast<std::size_t>(to[lane]) + c] - u[3 * static_cast<std::size_t>(from[lane]) + c];
+    });
+  };
+  return {component(0), component(1), component(2)};
+}
+
+}  // namespace
+
+template <class Law>
+MembraneBatch<Law>::MembraneBatch(const MembranePart& part, const Law& law,
+                                  std::vector<std::array<Index, 3>> triangles,
+                                  std::span<const double> reference)
+    : part_(part), law_(law), triangles_(std::move(triangles)) {
+  const std::size_t count = (triangles_.size() + Lanes::size() - 1) / Lanes::size();
+  packs_.assign(count, MembraneTriangle<Lanes>{});
+  nodes_.assign(count, {});
+  for (std::size_t e = 0; e < triangles_.size(); ++e) {
+    MembranePatch patch{{}, part.thickness, part.material_axis};
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      const Index node = triangles_[e][corner];
+      patch.nodes[corner] = Vector3::Map(&reference[3 * at(node)]);
+      nodes_[e / Lanes::size()][corner][e % Lanes::size()] = node;
+    }
+    put(packs_[e / Lanes::size()], e % Lanes::size(), membrane_triangle(patch));
+  }
+}
+
+template <class Law>
+void MembraneBatch<Law>::internal_force(std::span<const double> displacement, std::span<double> slots,
+                                        core::Block elements) const noexcept {
+  static_assert(core::default_block_length % lanes == 0, "blocks of elements begin with a pack");
+  const auto end = static_cast<Index>((elements.end + lanes - 1) / lanes);
+  for (auto pack = static_cast<Index>(elements.begin / lanes); pack < end; ++pack)
+    pack_force(displacement, slots, pack);
+}
+
+template <class Law>
+void MembraneBatch<Law>::pack_force(std::span<const double> displacement, std::span<double> slots,
+                                    Index pack) const noexcept {
+  const auto& [first, second, third] = nodes_[at(pack)];
+  const MembraneTriangle<Lanes>& triangle = packs_[at(pack)];
+  const auto deformation = triangle.deform({gather_difference(displacement.data(), first, second),
+                                            gather_difference(displacement.data(), first, third)});
+  const auto force = triangle.force(deformation, law_.stress(deformation.strain));
+  const Index filled = std::min(lanes, size() - pack * lanes);
+  double* slot = &slots[6 * at(pack * lanes)];
+  for (std::size_t lane = 0; lane < at(filled); ++lane)
+    for (const Triple<Lanes>& f : force) {
+      *slot++ = f.x[lane];
+      *slot++ = f.y[lane];
+      *slot++ = f.z[lane];
+    }
+}
+
+template <class Law>
+MembraneTriangle<double> MembraneBatch<Law>::triangle(Index e) const noexcept {
+  return take(packs_[at(e / lanes)], at(e % lanes));
+}
+
+template <class Law>
+std::array<Triple<double>, 2> MembraneBatch<Law>::relative(std::span<const double> values,
+                                                           Index e) const noexcept {
+  const auto difference = [&](Index from, Index to) {
+    const double *a = &values[3 * at(from)], *b = &values[3 * at(to)];
+    return Triple<double>{b[0] - a[0], b[1] - a[1], b[2] - a[2]};
+  };
+  const auto [first, second, third] = triangles_[at(e)];
+  return {difference(first, second), difference(first, third)};
+}
+
+template <class Law>
+MembraneTriangle<double>::Deformation MembraneBatch<Law>::deformation(std::span<const double> displacement,
+                                                                      Index e) const noexcept {
+  return triangle(e).deform(relative(displacement, e));
+}
+
+template <class Law>
+void MembraneBatch<Law>::product(std::span<const double> displacement, std::span<const double> direction,
+                                 const PlaneMatrix& moduli, Index e, std::span<double> slots) const noexcept {
+  const MembraneTriangle<double> shape = triangle(e);
+  const auto state = shape.deform(relative(displacement, e));
+  const auto changes = shape.force_change(state, law_.stress(state.strain), moduli, relative(direction, e));
+  double* slot = &slots[6 * at(e)];
+  for (const Triple<double>& f : changes) {
+    *slot++ = f.x;
+    *slot++ = f.y;
+    *slot++ = f.z;
+  }
+}
+
+template <class Law>
+void MembraneBatch<Law>::stiffness_product(std::span<const double> displacement,
+                                           std::span<const double> direction, std::span<double> slots,
+                                           core::Block elements) const noexcept {
+  for (auto e = static_cast<Index>(elements.begin); e < elements.end; ++e)
+    product(displacement, direction, law_.tangent(deformation(displacement, e).strain), e, slots);
+}
+
+template <class Law>
+void MembraneBatch<Law>::stiffest_product(std::span<const double> displacement,
+                                          std::span<const double> direction, std::span<double> slots,
+                                          core::Block elements) const noexcept {
+  for (auto e = static_cast<Index>(elements.begin); e < elements.end; ++e)
+    product(displacement, direction, law_.stiffest_tangent(), e, slots);
+}
+
+template <class Law>
+double MembraneBatch<Law>::energy(std::span<const double> displacement) const noexcept {
+  double sum = 0;
+  for (Index e = 0; e < size(); ++e)
+    sum += triangle(e).volume * law_.energy_density(deformation(displacement, e).strain);
+  return sum;
+}
+
+template <class Law>
+void MembraneBatch<Law>::add_mass(std::span<double> node_masses) const noexcept {
+  for (Index e = 0; e < size(); ++e)
+    for (const Index node : triangles_[at(e)])
+      node_masses[at(node)] += membrane_node_mass(triangle(e).volume, part_.density);
+}
+
+template <class Law>
+Matrix9 MembraneBatch<Law>::element_stiffness(std::span<const double> displacement, Index e) const {
+  const auto state = deformation(displacement, e);
+  return membrane_stiffness(triangle(e), state, law_.stress(state.strain), law_.tangent(state.strain));
+}
+
+template <class Law>
+SheetState MembraneBatch<Law>::state(std::span<const double> displacement, Index e) const noexcept {
+  return law_.state(deformation(displacement, e).strain);
+}
+
+template <class Law>
+PlaneStress<double> MembraneBatch<Law>::stress(std::span<const double> displacement, Index e) const noexcept {
+  return law_.stress(deformation(displacement, e).strain);
+}
+
+template class MembraneBatch<LinearSheet>;
+template class MembraneBatch<TensionField<ExactWrinkles>>;
+template class MembraneBatch<TensionField<PrincipalWrinkles>>;
+
+}  // namespace talus::fem

@@ -1,0 +1,77 @@
+#include "fem_solver/model/path_batch.hpp"
+
+#include <utility>
+
+namespace talus::fem {
+
+template <class Law>
+PathBatch<Law>::PathBatch(Description description, std::vector<std::array<Index, 2>> segments,
+                          std::span<const double> reference)
+    : description_(std::move(description)), segments_(std::move(segments)) {
+  for (Index e = 0; e < size(); ++e) {
+    const Vector3 span = difference(reference, e);
+    reference_.insert(reference_.end(), span.begin(), span.end());
+    lengths_.push_back(span.norm());
+  }
+  kept_.assign(segments_.size(), 0.0);
+  next_ = kept_;
+}
+
+template <class Law>
+void PathBatch<Law>::internal_force(std::span<const double> displacement, std::span<double> slots,
+                                    core::Block elements) const noexcept {
+  for (auto e = static_cast<Index>(elements.begin); e < elements.end; ++e) {
+    const Vector3 d = chord(displacement, e);
+    const AxialResponse response = segment(e).respond(d, kept_[at(e)]);
+    next_[at(e)] = response.history;
+    Vector3::Map(&slots[3 * at(e)]) = segment(e).force(d, response);
+  }
+}
+
+template <class Law>
+void PathBatch<Law>::stiffness_product(std::span<const double> displacement,
+                                       std::span<const double> direction, std::span<double> slots,
+                                       core::Block elements) const noexcept {
+  for (auto e = static_cast<Index>(elements.begin); e < elements.end; ++e) {
+    const Vector3 d = chord(displacement, e);
+    Vector3::Map(&slots[3 * at(e)]) =
+        segment(e).stiffness(d, segment(e).respond(d, kept_[at(e)])) * difference(direction, e);
+  }
+}
+
+template <class Law>
+void PathBatch<Law>::stiffest_product(std::span<const double> displacement, std::span<const double> direction,
+                                      std::span<double> slots, core::Block elements) const noexcept {
+  for (auto e = static_cast<Index>(elements.begin); e < elements.end; ++e) {
+    const Vector3 d = chord(displacement, e);
+    AxialResponse response = segment(e).respond(d, kept_[at(e)]);
+    response.slope = description_.law.stiffest_slope({d.norm(), lengths_[at(e)]}, response.force);
+    Vector3::Map(&slots[3 * at(e)]) = segment(e).stiffness(d, response) * difference(direction, e);
+  }
+}
+
+template <class Law>
+double PathBatch<Law>::energy(std::span<const double> displacement) const noexcept {
+  double sum = 0;
+  for (Index e = 0; e < size(); ++e) sum += segment(e).stored(chord(displacement, e), kept_[at(e)]);
+  return sum;
+}
+
+template <class Law>
+double PathBatch<Law>::dissipated(std::span<const double> displacement) const noexcept {
+  double sum = 0;
+  for (Index e = 0; e < size(); ++e) sum += segment(e).dissipated(chord(displacement, e), kept_[at(e)]);
+  return sum;
+}
+
+template <class Law>
+void PathBatch<Law>::add_mass(std::span<double> node_masses) const noexcept {
+  for (Index e = 0; e < size(); ++e)
+    for (const Index node : segments_[at(e)])
+      node_masses[at(node)] += 0.5 * description_.mass_per_length * lengths_[at(e)];
+}
+
+template class PathBatch<BrakeLaw>;
+template class PathBatch<ElasticPlasticRope>;
+
+}  // namespace talus::fem

@@ -1,0 +1,145 @@
+#include "fem_solver/scene/element_scenes.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace talus::fem {
+namespace {
+
+void describe_axial(core::Fields& fields, AxialScene& axial) {
+  fields.required("area", axial.area, {.unit = "m^2", .range = core::positive, .help = "cross-section"});
+  fields.required("density", axial.density,
+                  {.unit = "kg/m^3", .range = core::positive, .help = "mass over volume"});
+  fields.required("youngs_modulus", axial.youngs_modulus,
+                  {.unit = "Pa",
+                   .range = core::positive,
+                   .help = "between Green-Lagrange strain and second Piola-Kirchhoff stress"});
+  fields.with_default(
+      "prestress", axial.prestress,
+      {.unit = "Pa", .help = "second Piola-Kirchhoff stress of the reference state, tension positive"});
+}
+
+}  // namespace
+
+void describe(core::Fields& fields, BarScene& bar) {
+  describe_axial(fields, bar);
+}
+void describe(core::Fields& fields, CableScene& cable) {
+  describe_axial(fields, cable);
+}
+
+void describe(core::Fields& fields, SlidingCableScene& rope) {
+  describe_axial(fields, rope);
+  fields.optional(
+      "slider_size", rope.slider_size,
+      {.unit = "m",
+       .range = core::positive,
+       .help = "segments shorter than this hold the slider as its fitting would; a hundredth of the "
+               "shortest segment where absent"});
+  fields.optional(
+      "friction", rope.friction,
+      {.range = core::positive, .help = "coefficient of the capstan equation; none where absent"});
+}
+
+void describe(core::Fields& fields, ElasticPlasticCableScene& rope) {
+  describe_axial(fields, rope);
+  fields.required(
+      "yield_stress", rope.yield_stress,
+      {.unit = "Pa", .range = core::positive, .help = "second Piola-Kirchhoff stress of first yield"});
+  fields.with_default(
+      "hardening", rope.hardening,
+      {.unit = "Pa", .range = core::not_negative, .help = "rise of the yield stress over plastic strain"});
+  fields.rule(!(rope.prestress > rope.yield_stress), "prestress",
+              fmt::format("must not exceed yield_stress, but is {} Pa", rope.prestress));
+}
+
+void describe(core::Fields& fields, EndStopScene& stop) {
+  fields.required("stiffness", stop.stiffness,
+                  {.unit = "N/m", .range = core::positive, .help = "past the end of travel"});
+  fields.required("width", stop.width,
+                  {.unit = "m", .range = core::positive, .help = "of the elongation over which it comes in"});
+}
+
+void describe(core::Fields& fields, BrakeScene& brake) {
+  fields.required(
+      "table", brake.table,
+      {.unit = "m, N", .help = "pairs of elongation and force, from (0, 0); the last one ends the travel"});
+  fields.required("mass_per_length", brake.mass_per_length,
+                  {.unit = "kg/m", .range = core::positive, .help = "of the reference length"});
+  fields.section("end_stop", brake.end_stop,
+                 "what happens past the travel; the initial stiffness where absent");
+}
+
+void describe(core::Fields& fields, IsotropicSheet& sheet) {
+  fields.required("youngs_modulus", sheet.youngs_modulus,
+                  {.unit = "Pa", .range = core::positive, .help = "in plane stress"});
+  fields.required("poissons_ratio", sheet.poissons_ratio,
+                  {.range = {.low = -1, .high = 1, .low_included = false, .high_included = false},
+                   .help = "contraction across a pull"});
+}
+
+void describe(core::Fields& fields, OrthotropicScene& scene) {
+  OrthotropicSheet& sheet = scene.sheet;
+  fields.required("youngs_modulus_x", sheet.youngs_modulus_x,
+                  {.unit = "Pa", .range = core::positive, .help = "along the material axis"});
+  fields.required("youngs_modulus_y", sheet.youngs_modulus_y,
+                  {.unit = "Pa", .range = core::positive, .help = "across the material axis"});
+  fields.required("poissons_ratio_xy", sheet.poissons_ratio_xy,
+                  {.help = "contraction along x under a pull along y: C12 = v_xy E_x/(1 - v_xy v_yx)"});
+  fields.optional("poissons_ratio_yx", scene.poissons_ratio_yx,
+                  {.help = "the other one, checked: v_xy/E_y = v_yx/E_x"});
+  fields.required("shear_modulus", sheet.shear_modulus,
+                  {.unit = "Pa", .range = core::positive, .help = "between the material axes"});
+  const double limit = std::sqrt(sheet.youngs_modulus_y / sheet.youngs_modulus_x);
+  fields.rule(
+      !(std::abs(sheet.poissons_ratio_xy) >= limit), "poissons_ratio_xy",
+      fmt::format(
+          "must be smaller than sqrt(E_y/E_x) = {:.6g} in magnitude for a positive definite stiffness, "
+          "but is {}",
+          limit, sheet.poissons_ratio_xy));
+  if (!scene.poissons_ratio_yx) return;
+  const double expected = sheet.poissons_ratio_xy * sheet.youngs_modulus_x / sheet.youngs_modulus_y;
+  fields.rule(is_poisson_pair(sheet, *scene.poissons_ratio_yx), "poissons_ratio_yx",
+              fmt::format("must be v_xy E_x/E_y = {:.6g} for a symmetric stiffness, but is {}", expected,
+                          *scene.poissons_ratio_yx));
+}
+
+void describe(core::Fields& fields, MembranePrestressScene& prestress) {
+  fields.with_default("xx", prestress.stress.xx, {.unit = "Pa", .help = "along the material axis"});
+  fields.with_default("yy", prestress.stress.yy, {.unit = "Pa", .help = "across the material axis"});
+  fields.with_default("xy", prestress.stress.xy, {.unit = "Pa", .help = "shear"});
+}
+
+void describe(core::Fields& fields, TensionFieldScene& field) {
+  fields.choice("wrinkle_direction", field.wrinkle_direction, {"iterated", "principal"},
+                "iterated: exact, no compression; principal: across the smaller principal trial stress");
+}
+
+void describe(core::Fields& fields, MembraneScene& membrane) {
+  fields.required("thickness", membrane.thickness,
+                  {.unit = "m", .range = core::positive, .help = "of the homogenised sheet"});
+  fields.required("density", membrane.density,
+                  {.unit = "kg/m^3", .range = core::positive, .help = "mass over area times thickness"});
+  fields.one_of(membrane.elasticity, {{"isotropic", "the same stiffness in all directions"},
+                                      {"orthotropic", "two directions, after Münsch and Reinhardt"}});
+  fields.optional(
+      "material_axis", membrane.material_axis,
+      {.help = "x direction of the material, projected on each triangle; its first edge where absent"});
+  std::optional<MembranePrestressScene> prestress;
+  fields.section("prestress", prestress, "second Piola-Kirchhoff stress of the reference state");
+  if (prestress) membrane.prestress = *prestress;
+  fields.section("tension_field", membrane.tension_field,
+                 "the sheet wrinkles or goes slack instead of carrying compression");
+}
+
+void describe_element(core::Fields& fields, ElementScene& element) {
+  fields.one_of(element, {{"bar", "carries tension and compression"},
+                          {"cable", "carries tension only"},
+                          {"sliding_cable", "one rope that runs through all its nodes, tension only"},
+                          {"elastic_plastic_cable", "carries tension only, yields and hardens"},
+                          {"brake", "force over elongation from a table, plastic, with an end stop"},
+                          {"membrane", "a homogenised net or sheet of triangles in plane stress"}});
+}
+
+}  // namespace talus::fem

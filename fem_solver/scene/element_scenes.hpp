@@ -1,0 +1,87 @@
+#pragma once
+
+#include <optional>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "core/scene/fields.hpp"
+#include "fem_solver/materials/plane_stress.hpp"
+
+/// What the elements of a part are made of: the keys `bar`, `cable`, `sliding_cable`, `membrane`.
+namespace talus::fem {
+
+/// Area, density and elastic law of bars and ropes.
+struct AxialScene {
+  double area = 0;            ///< m^2
+  double density = 0;         ///< kg/m^3
+  double youngs_modulus = 0;  ///< Pa
+  double prestress = 0;       ///< Pa, second Piola-Kirchhoff
+};
+struct BarScene : AxialScene {};
+struct CableScene : AxialScene {};
+void describe(core::Fields& fields, BarScene& bar);
+void describe(core::Fields& fields, CableScene& cable);
+
+/// One rope that runs through all its nodes.
+struct SlidingCableScene : AxialScene {
+  std::optional<double> slider_size;  ///< m
+  std::optional<double> friction;     ///< mu of the capstan equation
+};
+void describe(core::Fields& fields, SlidingCableScene& rope);
+
+/// A rope that yields.
+struct ElasticPlasticCableScene : AxialScene {
+  double yield_stress = 0;  ///< Pa
+  double hardening = 0;     ///< Pa
+};
+void describe(core::Fields& fields, ElasticPlasticCableScene& rope);
+
+struct EndStopScene {
+  double stiffness = 0;  ///< N/m
+  double width = 0;      ///< m
+};
+void describe(core::Fields& fields, EndStopScene& stop);
+
+/// A rope brake; every element of the part is one.
+struct BrakeScene {
+  std::vector<std::pair<double, double>> table;  ///< elongation (m), force (N)
+  double mass_per_length = 0;                    ///< kg/m
+  std::optional<EndStopScene> end_stop;          ///< absent: initial stiffness over a twentieth of the travel
+};
+void describe(core::Fields& fields, BrakeScene& brake);
+
+void describe(core::Fields& fields, IsotropicSheet& sheet);
+
+struct OrthotropicScene {
+  OrthotropicSheet sheet;
+  std::optional<double> poissons_ratio_yx;
+};
+void describe(core::Fields& fields, OrthotropicScene& sheet);
+
+struct MembranePrestressScene {
+  PlaneStress<double> stress{0, 0, 0};
+};
+void describe(core::Fields& fields, MembranePrestressScene& prestress);
+
+struct TensionFieldScene {
+  enum class WrinkleDirection { iterated, principal } wrinkle_direction = WrinkleDirection::iterated;
+};
+void describe(core::Fields& fields, TensionFieldScene& field);
+
+/// Constant-strain triangles in plane stress.
+struct MembraneScene {
+  double thickness = 0;  ///< m
+  double density = 0;    ///< kg/m^3
+  std::variant<IsotropicSheet, OrthotropicScene> elasticity;
+  std::optional<core::Vector3> material_axis;
+  MembranePrestressScene prestress;
+  std::optional<TensionFieldScene> tension_field;
+};
+void describe(core::Fields& fields, MembraneScene& membrane);
+
+using ElementScene = std::variant<BarScene, CableScene, SlidingCableScene, ElasticPlasticCableScene,
+                                  BrakeScene, MembraneScene>;
+void describe_element(core::Fields& fields, ElementScene& element);
+
+}  // namespace talus::fem

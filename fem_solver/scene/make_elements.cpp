@@ -1,0 +1,94 @@
+#include "fem_solver/scene/make_elements.hpp"
+
+#include <fmt/format.h>
+
+#include "core/errors.hpp"
+
+namespace talus::fem {
+namespace {
+
+AxialPart axial_part(const AxialScene& scene) {
+  return {
+      .section = {.area = scene.area, .youngs_modulus = scene.youngs_modulus, .prestress = scene.prestress},
+      .density = scene.density};
+}
+
+PlaneElasticity elasticity(const MembraneScene& scene) {
+  if (const auto* sheet = std::get_if<IsotropicSheet>(&scene.elasticity))
+    return PlaneElasticity::from(*sheet);
+  return PlaneElasticity::from(std::get<OrthotropicScene>(scene.elasticity).sheet);
+}
+
+/// The stop's width as a share of the travel where the scene gives no stop.
+constexpr double usual_stop_width = 0.05;
+
+BrakeLaw brake_law(const BrakeScene& scene) {
+  if (scene.end_stop) return BrakeLaw({scene.table, scene.end_stop->stiffness, scene.end_stop->width});
+  if (scene.table.empty()) return BrakeLaw({scene.table, 1, 1});  // which refuses the table
+  return BrakeLaw({scene.table, scene.table.front().second / scene.table.front().first,
+                   usual_stop_width * scene.table.back().first});
+}
+
+struct Maker {
+  const MeshedElements& elements;
+  const Model& model;
+
+  ElementBatch operator()(const BarScene& bar) const {
+    need_segments("bar");
+    return BarBatch(axial_part(bar), elements.segments, model.reference);
+  }
+  ElementBatch operator()(const CableScene& cable) const {
+    need_segments("cable");
+    return CableBatch(axial_part(cable), elements.segments, model.reference);
+  }
+  ElementBatch operator()(const SlidingCableScene& rope) const {
+    need_segments("sliding cable");
+    if (rope.friction)
+      return FrictionalCableBatch({axial_part(rope), *rope.friction, rope.slider_size.value_or(0)},
+                                  elements.segments, model.reference);
+    return SlidingCableBatch(axial_part(rope), rope.slider_size.value_or(0), elements.segments,
+                             model.reference);
+  }
+  ElementBatch operator()(const ElasticPlasticCableScene& rope) const {
+    need_segments("cable");
+    return ElasticPlasticBatch(
+        {{axial_part(rope).section, rope.yield_stress, rope.hardening}, rope.density * rope.area},
+        elements.segments, model.reference);
+  }
+  ElementBatch operator()(const BrakeScene& brake) const {
+    need_segments("brake");
+    return BrakeBatch({brake_law(brake), brake.mass_per_length}, elements.segments, model.reference);
+  }
+  ElementBatch operator()(const MembraneScene& membrane) const {
+    if (elements.triangles.empty())
+      throw core::ConfigError("a membrane needs a shape made of triangles, not of lines");
+    if (!membrane.tension_field) return membrane_of<LinearSheet>(membrane);
+    if (membrane.tension_field->wrinkle_direction == TensionFieldScene::WrinkleDirection::principal)
+      return membrane_of<TensionField<PrincipalWrinkles>>(membrane);
+    return membrane_of<TensionField<ExactWrinkles>>(membrane);
+  }
+
+ private:
+  void need_segments(const char* element) const {
+    if (elements.segments.empty())
+      throw core::ConfigError(fmt::format("a {} needs a shape made of lines, not of triangles", element));
+  }
+  template <class Law>
+  ElementBatch membrane_of(const MembraneScene& scene) const {
+    return MembraneBatch<Law>({scene.thickness, scene.density, scene.material_axis},
+                              Law(elasticity(scene), scene.prestress.stress), elements.triangles,
+                              model.reference);
+  }
+};
+
+}  // namespace
+
+ElementBatch make_elements(const ElementScene& scene, const MeshedElements& elements, const Model& model) {
+  try {
+    return std::visit(Maker{elements, model}, scene);
+  } catch (const core::ConfigError& error) {
+    throw core::ConfigError(fmt::format("{}: {}", elements.key, error.what()));
+  }
+}
+
+}  // namespace talus::fem

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "fem_solver/model/model.hpp"
+#include "fem_solver/scene/element_scenes.hpp"
+
+namespace talus::fem {
+
+/// The lines and triangles of a part by the model's node numbers, and where the scene speaks of it.
+struct MeshedElements {
+  std::string key;  ///< "scene.yaml:12: structure.parts.net"
+  std::vector<std::array<Index, 2>> segments;
+  std::vector<std::array<Index, 3>> triangles;
+};
+
+/// @throws core::ConfigError naming the key where the shape does not fit the element, or its geometry cannot
+/// be computed with
+ElementBatch make_elements(const ElementScene& scene, const MeshedElements& elements, const Model& model);
+
+}  // namespace talus::fem
