@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "interface_mesh/net_patterns.hpp"
+#include "interface_mesh/open_rim.hpp"
 #include "interface_mesh/square_net.hpp"
 
 namespace talus::mesh {
@@ -23,26 +24,7 @@ bool is_multiple(double size, double pitch) {
          std::abs(openings - std::round(openings)) < multiple_tolerance * std::max(1.0, openings);
 }
 
-}  // namespace
-
-void describe(core::Fields& fields, SquareNetScene& net) {
-  describe(fields, net.panel);
-  fields.required("pitch", net.pitch,
-                  {.unit = "m", .range = core::positive, .help = "distance of neighbouring wires"});
-  fields.with_default(
-      "wire_diameter", net.wire_diameter,
-      {.unit = "m", .range = core::not_negative, .help = "thickness of the wires in contact"});
-  if (net.pitch <= 0 || !net.panel.size) return;
-  for (const double size : *net.panel.size) {
-    fields.rule(
-        is_multiple(size, net.pitch), "pitch",
-        fmt::format("must divide the size: {:g} m is {:g} times {:g} m", size, size / net.pitch, net.pitch));
-    fields.rule(size / net.pitch <= most_openings, "pitch",
-                fmt::format("gives more than {:g} openings along an edge", most_openings));
-  }
-}
-
-Net generate(const SquareNetScene& scene) {
+Net with_rim(const SquareNetScene& scene) {
   const Panel panel = make_panel(scene.panel);
   if (!scene.panel.is_rectangle())
     return clip(lattice(SquarePattern{.pitch = scene.pitch, .wire_diameter = scene.wire_diameter}), panel);
@@ -54,6 +36,31 @@ Net generate(const SquareNetScene& scene) {
                             .lengths = {size.x(), size.y()},
                             .openings = {openings(size.x()), openings(size.y())},
                             .wire_diameter = scene.wire_diameter});
+}
+
+}  // namespace
+
+void describe(core::Fields& fields, SquareNetScene& net) {
+  describe(fields, net.panel);
+  fields.required("pitch", net.pitch,
+                  {.unit = "m", .range = core::positive, .help = "distance of neighbouring wires"});
+  fields.with_default(
+      "wire_diameter", net.wire_diameter,
+      {.unit = "m", .range = core::not_negative, .help = "thickness of the wires in contact"});
+  fields.choice("rim", net.rim, {"wires", "open"},
+                "what runs along the outline: wires, or nothing where the structure adds ropes of its own");
+  if (net.pitch <= 0 || !net.panel.size) return;
+  for (const double size : *net.panel.size) {
+    fields.rule(
+        is_multiple(size, net.pitch), "pitch",
+        fmt::format("must divide the size: {:g} m is {:g} times {:g} m", size, size / net.pitch, net.pitch));
+    fields.rule(size / net.pitch <= most_openings, "pitch",
+                fmt::format("gives more than {:g} openings along an edge", most_openings));
+  }
+}
+
+Net generate(const SquareNetScene& scene) {
+  return scene.rim == SquareNetScene::Rim::open ? without_rim_wires(with_rim(scene)) : with_rim(scene);
 }
 
 }  // namespace talus::mesh

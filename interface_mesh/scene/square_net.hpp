@@ -9,6 +9,7 @@ struct SquareNetScene {
   PanelScene panel;
   double pitch = 0;          ///< m; between neighbouring wires
   double wire_diameter = 0;  ///< m
+  enum class Rim { wires, open } rim = Rim::wires;
 };
 void describe(core::Fields& fields, SquareNetScene& net);
 

@@ -151,6 +151,53 @@ TEST_CASE("a run split by a checkpoint in a file is bitwise the run in one piece
   std::filesystem::remove_all(folder);
 }
 
+TEST_CASE(
+    "what ropes with friction, brakes and yielding ropes remember survives checkpoints and going back") {
+  const auto folder = std::filesystem::temp_directory_path() / "talus_fem_memory_test";
+  std::filesystem::create_directories(folder);
+  const std::string section = "area: 1 cm^2, density: 8000, youngs_modulus: 1 GPa";
+  const std::string hung =
+      "  parts:\n"
+      "    rope: {polyline: {points: [[0, 0, 1], [1, 0, 0], [3, 0.5, 1]]}, sliding_cable: {" +
+      section +
+      ", prestress: 1 MPa, friction: 0.1}}\n"
+      "    brake: {polyline: {points: [[1, 0, 0], [1, 0, -1]]}, "
+      "brake: {table: [[0.01, 200], [0.5, 400]], mass_per_length: 2}}\n"
+      "    stay: {polyline: {points: [[1, 0, 0], [1, 0, 1]]}, elastic_plastic_cable: {" +
+      section +
+      ", prestress: 1 MPa, yield_stress: 1.05 MPa, hardening: 10 MPa}}\n"
+      "  weld: {tolerance: 1 mm}\n"
+      "  supports: [{nodes: rope.start, fix: xyz}, {nodes: rope.end, fix: xyz}, {nodes: stay.end, fix: "
+      "xyz},\n"
+      "             {nodes: brake.end, fix: xy}]\n"
+      "  loads: [{nodes: brake.end, force: [0, 0, -350], over_time: [[0, 0], [0.3, 1], [0.5, 0.2]]}]\n";
+  const auto advance = [](Structure& structure, int from, int to) {
+    for (int k = from; k < to; ++k) structure.integrator().advance(0.1 * k, 0.1);
+  };
+  for (const std::string method :
+       {"  explicit: {}\n", "  implicit: {}\n  step: 1 ms\n", "  static: {steps: 10}\n"}) {
+    INFO(method);
+    const StructuralScene read = scene(hung + "  damping: {mass: 20 1/s}\n" + method);
+    Structure whole(read), first(read), second(read), repeated(read);
+    advance(whole, 0, 5);
+    advance(first, 0, 3);
+    first.write_checkpoint(folder / "checkpoint.h5");
+    second.read_checkpoint(folder / "checkpoint.h5");
+    advance(second, 3, 5);
+    advance(repeated, 0, 3);
+    repeated.integrator().save();
+    advance(repeated, 3, 5);
+    repeated.integrator().restore();
+    advance(repeated, 3, 5);
+    for (Structure* other : {&second, &repeated}) {
+      CHECK(std::ranges::equal(other->integrator().displacement(), whole.integrator().displacement()));
+      CHECK(other->integrator().balance().dissipated == whole.integrator().balance().dissipated);
+    }
+    for (const double joules : whole.integrator().balance().dissipated) CHECK(joules > 0);
+  }
+  std::filesystem::remove_all(folder);
+}
+
 TEST_CASE("an implicit run needs a step") {
   CHECK_THAT(complaint(line + "  implicit: {}\n"), Catch::Contains("needs `structure.step` or `time.step`"));
 }

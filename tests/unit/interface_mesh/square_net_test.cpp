@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "interface_mesh/open_rim.hpp"
 #include "interface_mesh/points.hpp"
 #include "interface_mesh/surface_checks.hpp"
 
@@ -80,4 +81,22 @@ TEST_CASE("no two nodes of a net coincide and no segment is there twice") {
   }
   CHECK(segments.size() == net.surface.segments.size());
   CHECK(places.size() == 441);
+}
+
+TEST_CASE("a net with an open rim has no wire along its outline and no corners, and its edges end on wires") {
+  const auto net = mesh::without_rim_wires(cable_net());
+  CHECK(net.surface.node_count() == 21 * 21 - 4);
+  CHECK(wire_length(net.surface) == Approx(2 * 19 * 3.0).epsilon(1e-13));
+  CHECK(mesh::faults(net.surface).empty());
+  CHECK(net.find_set("corners") == nullptr);
+  CHECK(net.find_set("rim")->nodes.size() == 4 * 19);
+  const auto& south = net.find_set("edge_south")->nodes;
+  REQUIRE(south.size() == 19);
+  CHECK(mesh::point(net.surface.positions, south.front()).isApprox(Vector3(0.15, 0, 0), 1e-14));
+  for (const auto& [a, b] : net.surface.segments) {
+    const Vector3 middle =
+        0.5 * (mesh::point(net.surface.positions, a) + mesh::point(net.surface.positions, b));
+    CHECK((middle.array() > 0).head<2>().all());
+    CHECK((middle.array() < 3).head<2>().all());
+  }
 }

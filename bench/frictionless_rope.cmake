@@ -1,0 +1,3 @@
+add_executable(bench_frictionless_rope frictionless_rope.cpp)
+talus_settings(bench_frictionless_rope)
+target_link_libraries(bench_frictionless_rope PRIVATE talus_fem fmt::fmt)

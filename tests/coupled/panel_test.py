@@ -1,0 +1,78 @@
+"""The paper's panel under the same rock, computed in different ways (its figures 4, 6, 8 and 9): what it says about them, as inequalities.
+
+Arguments: the folder of the repository, the folder of the build."""
+import csv
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+ROOT, BUILD = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2])
+SCENES = ("net_sliding_edges", "membrane_plain", "membrane_tension_field")
+ROPES = ("south", "east", "north", "west")
+
+
+class Run:
+    def __init__(self, scene: str, folder: str):
+        result = pathlib.Path(folder, scene)
+        subprocess.run([BUILD / "bin/talus", "run", ROOT / f"configs/examples/{scene}.yaml", "--out", result, "--quiet"], check=True)
+        self.summary = json.loads((result / "summary.json").read_text())
+        with open(result / "probes.csv", newline="") as file:
+            self.rows = list(csv.DictReader(file))
+
+    def column(self, name: str) -> list[float]:
+        return [float(row[name]) for row in self.rows]
+
+
+class RockOnPanel(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        with tempfile.TemporaryDirectory() as folder:
+            cls.runs = {scene: Run(scene, folder) for scene in SCENES}
+
+    def deflection(self, scene: str) -> float:
+        return -min(self.runs[scene].column("middle.displacement_z_m"))
+
+    def test_every_panel_throws_the_rock_back(self):
+        for scene, run in self.runs.items():
+            with self.subTest(scene=scene):
+                self.assertEqual(run.summary["status"], "finished")
+                self.assertGreater(max(run.column("boulder.velocity_z_m_per_s")), 0)  # it bounces
+
+    def test_the_energy_balance_closes(self):
+        # The contact's own error, see cable_net_test.py, is relative to the rock's energy.
+        for scene, run in self.runs.items():
+            with self.subTest(scene=scene):
+                self.assertLess(abs(run.summary["energy"]["largest_error_relative"]), 0.03)
+
+    def test_edge_ropes_carry_the_net_and_their_meshes_slide_inwards(self):
+        for scene, run in self.runs.items():
+            with self.subTest(scene=scene):
+                self.assertGreater(max(run.column("south.axial_force_max_N")), 1000)
+                self.assertGreater(max(run.column("edge.displacement_y_m")), 0.01)
+
+    def test_compression_makes_the_plain_membrane_stiffer_than_the_net_and_the_tension_field_does_not(self):
+        net, plain, field = (self.deflection(scene) for scene in SCENES)
+        self.assertLess(plain, field)
+        self.assertLess(abs(field - net), abs(plain - net))
+
+    def test_the_tension_field_wrinkles_and_the_plain_membrane_presses(self):
+        self.assertGreater(max(self.runs["membrane_tension_field"].column("net.wrinkled_area_m2")), 1)
+        self.assertEqual(max(self.runs["membrane_plain"].column("net.wrinkled_area_m2")), 0)
+
+    def test_supports_hold_what_the_rock_and_the_panel_push(self):
+        # Downwards on the panel is upwards on the supports, and the impulse of both agrees with the rock's change of momentum.
+        run = self.runs["net_sliding_edges"]
+        times = run.column("time_s")
+        reaction = [sum(float(row[f"{rope}.{end}.reaction_z_N"]) for rope in ROPES for end in ("start", "end")) for row in run.rows]
+        impulse = sum(0.5 * (a + b) * (t1 - t0) for a, b, t0, t1 in zip(reaction, reaction[1:], times, times[1:]))
+        mass = 4 / 3 * 3.141592653589793 * 0.2**3 * 2500
+        velocity = run.column("boulder.velocity_z_m_per_s")
+        expected = mass * (velocity[-1] - velocity[0] + 9.81 * times[-1])
+        self.assertAlmostEqual(impulse, expected, delta=0.1 * abs(expected))  # the net's own momentum, and rows 0.5 ms apart
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])

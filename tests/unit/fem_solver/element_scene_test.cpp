@@ -1,0 +1,123 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "core/errors.hpp"
+#include "core/scene/reader.hpp"
+#include "fem_solver/app/structure.hpp"
+
+// Scenes of membranes, sliding ropes, brakes and slides: what they compute, and what is said about bad ones.
+namespace {
+
+using namespace talus;
+using namespace talus::fem;
+
+StructuralScene scene(const std::string& structure) {
+  return read_structural_scene(
+      core::SceneFile::parse("time: {end: 1 s}\nstructure:\n" + structure, "scene.yaml"));
+}
+
+/// What is said about a structure that cannot be built.
+std::string complaint(const std::string& structure) {
+  try {
+    Structure built(scene(structure));
+  } catch (const core::ConfigError& error) {
+    return error.what();
+  }
+  return "no complaint";
+}
+
+std::string part(const std::string& shape, const std::string& element) {
+  return "  parts: {part: {" + shape + ", " + element + "}}\n";
+}
+
+const std::string line = "polyline: {points: [[0, 0, 0], [4, 0, 0]], divisions: 4}";
+const std::string sheet = "sheet: {corner: [0, 0, 0], size: [1, 1], element_size: 0.5}";
+const std::string section = "area: 1 cm^2, density: 8000, youngs_modulus: 100 GPa";
+
+std::string membrane(const std::string& elasticity, const std::string& others = "") {
+  return "membrane: {thickness: 1 mm, density: 1000, " + elasticity + others + "}";
+}
+
+/// Runs a static scene to its end.
+Structure equilibrium(const std::string& structure) {
+  Structure built(scene(structure));
+  for (int k = 0; k < 10; ++k) built.integrator().advance(0.1 * k, 0.1);
+  return built;
+}
+
+Vector3 displacement(Structure& structure, Index node) {
+  return Vector3::Map(&structure.integrator().displacement()[3 * static_cast<std::size_t>(node)]);
+}
+
+}  // namespace
+
+TEST_CASE("bad membranes, ropes and brakes get complaints that name the key and the numbers") {
+  const auto check = [](const std::string& structure, const std::string& expected) {
+    CHECK_THAT(complaint(structure), Catch::Contains(expected));
+  };
+  const std::string moduli = "youngs_modulus_x: 4 GPa, youngs_modulus_y: 1 GPa, shear_modulus: 1 MPa, ";
+  const auto orthotropic = [&](const std::string& poisson) {
+    return part(sheet, membrane("orthotropic: {" + moduli + poisson + "}"));
+  };
+  check(orthotropic("poissons_ratio_xy: 0.1, poissons_ratio_yx: 0.1"),
+        "must be v_xy E_x/E_y = 0.4 for a symmetric stiffness, but is 0.1");
+  CHECK(complaint(orthotropic("poissons_ratio_xy: 0.1, poissons_ratio_yx: 0.4")) == "no complaint");
+  check(orthotropic("poissons_ratio_xy: 0.6"), "must be smaller than sqrt(E_y/E_x) = 0.5 in magnitude");
+  check(part(line, membrane("isotropic: {youngs_modulus: 1 GPa, poissons_ratio: 0.3}")),
+        "a membrane needs a shape made of triangles, not of lines");
+  check(part(sheet, "sliding_cable: {" + section + "}"),
+        "a sliding cable needs a shape made of lines, not of triangles");
+  check(part("mesh: {nodes: [[0, 0, 0], [1, 0, 0], [2, 0, 0]], segments: [[0, 1], [2, 1]]}",
+             "sliding_cable: {" + section + "}"),
+        "structure.parts.part: a sliding cable is one line from end to end, but after (1, 0, 0) m it goes on "
+        "at (2, 0, 0) m");
+  check(part("polyline: {points: [[0, 0, 0], [1, 0, 0], [1, 0, 0], [2, 0, 0]]}",
+             "sliding_cable: {" + section + "}"),
+        "(1, 0, 0)");
+  check(part(line, "elastic_plastic_cable: {" + section + ", prestress: 2 MPa, yield_stress: 1 MPa}"),
+        "must not exceed yield_stress");
+  check(part(line, "brake: {table: [[0.1, 100], [0.2, 300]], mass_per_length: 1}"), "structure.parts.part");
+  check(part(line, "brake: {table: [], mass_per_length: 1}"), "structure.parts.part");
+}
+
+TEST_CASE("a weight on a sliding cable of a scene settles at the lowest point of the ellipse") {
+  // As for the element alone: equal angles to the vertical, sin a = span/L, drops d1 + d2 = L cos a.
+  const double span = 4, rise = 1;
+  const double L = std::hypot(1, 1.5) + std::hypot(3, 2.5), weight = 1000, EA = 1e7;
+  Structure rope = equilibrium(
+      part("polyline: {points: [[0, 0, 0], [1, 0, -1.5], [4, 0, 1]]}",
+           "sliding_cable: {area: 1 cm^2, density: 8000, youngs_modulus: 100 GPa, prestress: 0.1 MPa}") +
+      "  static: {steps: 10}\n"
+      "  supports: [{nodes: part.start, fix: xyz}, {nodes: part.end, fix: xyz}]\n"
+      "  loads: [{at: [1, 0, -1.5], force: [0, 0, -1000]}]\n");
+  const double cosine = std::sqrt(1 - span * span / (L * L)), drop = 0.5 * (L * cosine - rise);
+  const Vector3 expected(drop / cosine * span / L, 0, -drop);
+  const double stretch = weight / (2 * cosine * EA);  // of the rope; moves the slider by about as much of L
+  CHECK((Vector3(1, 0, -1.5) + displacement(rope, 1) - expected).norm() < 5 * stretch * L);
+}
+
+TEST_CASE(
+    "a sheared panel of a scene has E gamma/4 of shear stress with the tension field and G gamma without") {
+  // Narrow ends are free: a long panel, its middle counts.
+  const double E = 1e6, poisson = 0.3, gamma = 0.01, length = 8, thickness = 1e-3;
+  const auto force = [&](const std::string& field) {
+    Structure panel =
+        equilibrium(part("sheet: {corner: [0, 0, 0], size: [8, 0.5], element_size: 0.25}",
+                         membrane("isotropic: {youngs_modulus: 1 MPa, poissons_ratio: 0.3}", field)) +
+                    "  static: {steps: 10}\n"
+                    "  supports: [{nodes: part, fix: z}, {nodes: part.edge_south, fix: xy},\n"
+                    "             {nodes: part.edge_north, fix: xy, displacement: [5 mm, 0, 0]}]\n");
+    const auto& supports = panel.model().supports;
+    double sum = 0;
+    std::size_t begin = supports[0].nodes.size() + supports[1].nodes.size();
+    for (std::size_t k = 0; k < supports[2].nodes.size(); ++k)
+      sum += panel.integrator().reactions()[3 * (begin + k)];
+    return sum / (length * thickness);
+  };
+  const double taut = force(""), wrinkled = force(", tension_field: {wrinkle_direction: iterated}");
+  // The free ends, over a height of 0.5 m each, and the second-order strain gamma^2/2 across.
+  constexpr double ends = 0.08;
+  CHECK(taut == Approx(E * gamma / (2 * (1 + poisson))).epsilon(ends));
+  CHECK(wrinkled == Approx(E * gamma / 4).epsilon(ends));
+  CHECK(wrinkled / taut == Approx((1 + poisson) / 2).epsilon(0.05));
+}
