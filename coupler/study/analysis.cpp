@@ -38,11 +38,8 @@ json work_of(const json& point) {
 }
 
 json described(const PlannedRun& run, const json& point) {
-  json all{{"id", run.id},
-           {"method", run.method},
-           {"value", run.value},
-           {"position", run.position},
-           {"shown", run.shown}};
+  json all{{"id", run.id},         {"method", run.method}, {"value", run.value}, {"position", run.position},
+           {"across", run.across}, {"shown", run.shown}};
   all["outcome"] = point.is_null() ? "missing" : point.at("outcome");
   all["message"] = point.is_null() ? "not run yet" : point.at("message");
   if (all["outcome"] != name_of(Outcome::ok)) return all;
@@ -76,7 +73,7 @@ class QuantityAnalysis {
     points_ = &points;
     json result{{"name", name}, {"history", std::holds_alternative<HistoryQuantity>(quantity_.source)}};
     const auto exact = ideal();
-    const auto reference = exact ? Values{{}, {*exact}} : limit(study_.reference, result);
+    const auto reference = exact ? Values{{}, {*exact}} : limit(*study_.reference, result);
     if (!reference) return result;
     if (!result["history"]) result["reference"] = reference->numbers.front();
     if (study_.second && !exact) add_floor(*reference, result);
@@ -213,6 +210,9 @@ json analyse(const LoadedStudy& study, const std::vector<PlannedRun>& runs, cons
            {"points", json::array()},
            {"machines", json::array()},
            {"quantities", json::array()}};
+  if (study.scene.across)
+    all["across"] =
+        study.scene.across->label.empty() ? study.scene.across->keys.front() : study.scene.across->label;
   for (const auto& run : runs) {
     const json point = read_point(run, runs_folder);
     all["points"].push_back(described(run, point));
@@ -224,14 +224,14 @@ json analyse(const LoadedStudy& study, const std::vector<PlannedRun>& runs, cons
 }
 
 std::string to_csv(const json& analysis) {
-  std::string text = "method,value,position,outcome,seconds_median,seconds_least,seconds_most";
+  std::string text = "method,value,position,across,outcome,seconds_median,seconds_least,seconds_most";
   for (const auto& quantity : analysis.at("quantities"))
     text += ",error_" + quantity.at("name").get<std::string>();
   for (const auto& point : analysis.at("points")) {
     if (!point.at("shown").get<bool>()) continue;
-    text += fmt::format("\n{},{},{},{}", point.at("method").get<std::string>(),
+    text += fmt::format("\n{},{},{},{},{}", point.at("method").get<std::string>(),
                         point.at("value").get<std::string>(), point.at("position").get<double>(),
-                        point.at("outcome").get<std::string>());
+                        point.at("across").get<std::string>(), point.at("outcome").get<std::string>());
     for (const char* which : {"median", "least", "most"})
       text += point.contains("loop_seconds")
                   ? fmt::format(",{}", point.at("loop_seconds").at(which).get<double>())

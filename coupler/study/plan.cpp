@@ -52,13 +52,16 @@ class Planner {
   void add(const std::string& method, const std::vector<std::string>& values, bool shown) {
     const auto found = std::find_if(study_.methods.begin(), study_.methods.end(),
                                     [&](const auto& m) { return m.first == method; });
-    for (const auto& value : values) add(*found, value, shown);
+    const std::vector<std::string> nothing{""};
+    for (const auto& across : study_.across ? study_.across->values : nothing)
+      for (const auto& value : values) add(*found, value, across, shown);
   }
   std::vector<PlannedRun> take() { return std::move(runs_); }
 
  private:
-  void add(const std::pair<std::string, Method>& method, const std::string& value, bool shown) {
-    const std::string id = file_name(method.first + "_" + value);
+  void add(const std::pair<std::string, Method>& method, const std::string& value, const std::string& across,
+           bool shown) {
+    const std::string id = file_name(method.first + "_" + value + (across.empty() ? "" : "_" + across));
     const auto same = std::find_if(runs_.begin(), runs_.end(), [&](const auto& run) { return run.id == id; });
     if (same != runs_.end()) {
       same->shown |= shown;
@@ -66,8 +69,15 @@ class Planner {
     }
     std::vector<Setting> settings = method.second.set;
     for (const auto& key : study_.sweep.keys) settings.push_back({key, value});
-    runs_.push_back({id, method.first, value, core::parse_quantity(value, study_.sweep.unit).value_or(0),
-                     shown, scene_text(settings, base_)});
+    if (study_.across)
+      for (const auto& key : study_.across->keys) settings.push_back({key, across});
+    runs_.push_back({.id = id,
+                     .method = method.first,
+                     .value = value,
+                     .position = core::parse_quantity(value, study_.sweep.unit).value_or(0),
+                     .across = across,
+                     .shown = shown,
+                     .scene = scene_text(settings, base_)});
   }
 
   const StudyScene& study_;
@@ -80,8 +90,8 @@ class Planner {
 std::vector<PlannedRun> plan(const StudyScene& study, const std::filesystem::path& folder) {
   Planner planner(study, folder);
   for (const auto& method : study.methods) planner.add(method.first, study.sweep.values, true);
-  planner.add(study.reference.method, study.reference.values, false);
-  if (study.second) planner.add(study.second->method, study.second->values, false);
+  for (const auto& reference : {study.reference, study.second})
+    if (reference) planner.add(reference->method, reference->values, false);
   return planner.take();
 }
 

@@ -15,6 +15,7 @@ struct PlannedRun {
   std::string method;
   std::string value;    ///< as written
   double position = 0;  ///< the value in the sweep's SI unit
+  std::string across;   ///< the value of the second sweep; empty where there is none
   bool shown = true;    ///< false: only for the reference
   std::string scene;    ///< the text of its scene, which extends the base
 };

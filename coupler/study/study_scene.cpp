@@ -65,11 +65,18 @@ void describe(core::Fields& fields, Reference& reference) {
 void describe(core::Fields& fields, StudyScene& study) {
   fields.required("base", study.base, {.help = "the scene that everything starts from"});
   fields.section("sweep", study.sweep, "what is varied along each curve");
-  fields.map("methods", study.methods, "the curves, by name", 1);
-  fields.map("quantities", study.quantities, "what is judged, by name", 1);
+  fields.section("across", study.across,
+                 "a second sweep: the study is then a map of stability, work and energy error over both");
+  fields.map("methods", study.methods, "the curves or maps, by name", 1);
+  fields.map("quantities", study.quantities, "what is judged, by name");
   fields.section("reference", study.reference, "what errors are measured against");
   fields.section("second", study.second,
                  "a second, independent way to the reference; their difference is the floor of the plots");
+  fields.rule(study.across.has_value() != !study.quantities.empty(), "quantities",
+              "a study needs either `quantities`, to judge errors along the sweep, or `across`, to map what "
+              "works over two sweeps");
+  fields.rule(study.quantities.empty() == !study.reference, "reference",
+              "`quantities` need a `reference`, and a map has none");
   fields.with_default("repeats", study.repeats,
                       {.range = {.low = 1, .high = 1000}, .help = "timed runs of each point"});
   fields.with_default("threads", study.threads,
@@ -102,21 +109,24 @@ void check_values(const std::vector<std::string>& values, const std::string& uni
            .message = fmt::format("'{}' is no value in {}", value, unit.empty() ? "plain numbers" : unit)});
 }
 
+void check_study(const StudyScene& study, core::SceneReader& reader) {
+  check_values(study.sweep.values, study.sweep.unit, reader);
+  if (study.across) check_values(study.across->values, study.across->unit, reader);
+  for (const auto& [key, reference] :
+       {std::pair("reference", study.reference), std::pair("second", study.second)}) {
+    if (!reference) continue;
+    check_method(study, *reference, key, reader);
+    check_values(reference->values, study.sweep.unit, reader);
+  }
+}
+
 }  // namespace
 
 LoadedStudy load_study(const std::filesystem::path& path) {
   const auto file = core::SceneFile::load(path);
   core::SceneReader reader(file, {"title", "study"});
   LoadedStudy study{file.title(), reader.required<StudyScene>("study")};
-  if (!reader.has_complaints()) {
-    check_method(study.scene, study.scene.reference, "reference", reader);
-    check_values(study.scene.sweep.values, study.scene.sweep.unit, reader);
-    check_values(study.scene.reference.values, study.scene.sweep.unit, reader);
-    if (study.scene.second) {
-      check_method(study.scene, *study.scene.second, "second", reader);
-      check_values(study.scene.second->values, study.scene.sweep.unit, reader);
-    }
-  }
+  if (!reader.has_complaints()) check_study(study.scene, reader);
   reader.finish();
   return study;
 }

@@ -66,13 +66,14 @@ struct Reference {
 };
 void describe(core::Fields& fields, Reference& reference);
 
+/// Errors over one sweep, or (with `across`) a map of what works over two.
 struct StudyScene {
   std::filesystem::path base;
   Sweep sweep;
+  std::optional<Sweep> across;
   std::vector<std::pair<std::string, Method>> methods;
   std::vector<std::pair<std::string, Quantity>> quantities;
-  Reference reference;
-  std::optional<Reference> second;
+  std::optional<Reference> reference, second;
   std::int64_t repeats = 5;
   std::int64_t threads = 1;
   std::int64_t cores = 0;

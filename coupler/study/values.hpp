@@ -27,6 +27,7 @@ Values read_values(const Quantity& quantity, const std::filesystem::path& result
 /// | q_rh   | value at the coarser step r h, r > 1          |
 /// | p      | order of convergence                          |
 ///
+/// Test: "Richardson's extrapolation removes the leading error of single numbers and histories".
 /// Valid where the error is c h^p to leading order. Histories are extrapolated at each time of the finer run.
 struct Refinement {
   double ratio = 2;  ///< r

@@ -98,7 +98,7 @@ TEST_CASE("a point that broke down is shown with its outcome and message, not dr
   CHECK(broken.at("outcome") == "unstable");
   CHECK(broken.at("message") == "it blew up");
   CHECK_THAT(test::text_of(study.folder / "out/study.csv"),
-             Catch::Contains("second,400 ms,0.4,unstable,,,,"));
+             Catch::Contains("second,400 ms,0.4,,unstable,,,,"));
   CHECK_THAT(test::text_of(study.folder / "out/index.html"), Catch::Contains("it blew up"));
 }
 
@@ -138,6 +138,25 @@ TEST_CASE("shares of a study cover each point once, and missing points are shown
   }
   request.part = 3;
   CHECK_THROWS_AS(study::run_study(request), core::ConfigError);
+}
+
+TEST_CASE("a map has a point for each pair of values, with its outcome") {
+  const Study study(R"(
+study:
+  base: base.yaml
+  sweep: {keys: [model.step], values: [100 ms, 200 ms, 400 ms], unit: s}
+  across: {keys: [model.unstable_from], values: [150 ms, 300 ms], unit: s, label: limit}
+  methods: {only: {}}
+  repeats: 1
+)");
+  REQUIRE(study::run_study(study.request()) == core::ExitCode::success);
+  const json result = study.result();
+  CHECK(result.at("across") == "limit");
+  REQUIRE(result.at("points").size() == 6);
+  for (const auto& p : result.at("points")) {
+    const double limit = p.at("across") == "150 ms" ? 0.15 : 0.3;
+    CHECK((p.at("outcome") == "ok") == (p.at("position").get<double>() < limit));
+  }
 }
 
 TEST_CASE("timings are median, least and most of the repeats, and the portable work is kept") {
@@ -189,11 +208,22 @@ TEST_CASE("a difference is relative to the second value, or plain where that is 
   CHECK(study::relative_difference({{0, 2}, {0, 2}}, {{0, 1, 2}, {0, 1, 2}}) == 0);
 }
 
+TEST_CASE("every study of the repository can be planned") {
+  std::size_t planned = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(TALUS_SOURCE_DIR "/configs/studies")) {
+    INFO(entry.path());
+    planned += study::plan(study::load_study(entry.path()).scene, "results/study/runs").size();
+  }
+  CHECK(planned > 0);
+}
+
 TEST_CASE("what a study asks wrongly is told before anything runs") {
   CHECK_THAT(error_of(replaced(study_text, "method: second, values", "method: third, values")),
              Catch::Contains("study.reference.method: there is no method 'third'"));
   CHECK_THAT(error_of(replaced(study_text, "400 ms]", "400 kg]")),
              Catch::Contains("'400 kg' is no value in s"));
+  CHECK_THAT(error_of(replaced(study_text, "  repeats: 2", "  across: {keys: [a], values: [1]}")),
+             Catch::Contains("either `quantities`"));
   CHECK_THAT(error_of(replaced(study_text, "base.yaml", "nothing.yaml")),
              Catch::Contains("study.base: no such file"));
   CHECK_THAT(error_of(replaced(study_text, "[40 ms, 20 ms, 10 ms]", "[40 ms]")),
