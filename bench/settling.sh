@@ -1,13 +1,14 @@
 #!/usr/bin/env bash
 # Particle-steps per second of a settling bed, one JSON object a line.
-#   ./talus bench settling [--n N] [--steps N] [--settle N] [--threads N] [--peers]
+#   ./talus bench settling [--n N] [--steps N] [--settle N] [--threads N] [--peers | --scaling]
 # --peers runs LIGGGHTS and LAMMPS (Debian packages liggghts and lammps) on the same bed, material and step, one after the other, and
 # prints how many times faster Talus is. Rates fall as contacts form, so only equal --n, --settle and --steps compare; on a busy machine
 # read the ratios, and repeat.
+# --scaling runs 10 000, 100 000 and 1 000 000 spheres for the same steps instead, and prints the time of a particle-step over that of the first.
 set -euo pipefail
 here=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")" && pwd)
 program=$TALUS_BUILD_DIR/bin/bench_settling
-n=10000 steps=5000 settle=0 threads=1 peers=no
+n=10000 steps=5000 settle=0 threads=1 peers=no scaling=no
 while [ $# -gt 0 ]; do
   case $1 in
     --n) n=$2; shift 2 ;;
@@ -15,9 +16,23 @@ while [ $# -gt 0 ]; do
     --settle) settle=$2; shift 2 ;;
     --threads) threads=$2; shift 2 ;;
     --peers) peers=yes; shift ;;
+    --scaling) scaling=yes; shift ;;
     *) echo "settling: unknown option $1" >&2; exit 2 ;;
   esac
 done
+
+number_of() { sed -n "s/.*\"$2\":\([0-9.e+-]*\).*/\1/p" <<<"$1"; }
+
+if [ $scaling = yes ]; then
+  for n in 10000 100000 1000000; do
+    line=$("$program" --n $n --steps "$steps" --settle "$settle" --threads "$threads")
+    echo "$line"
+    rate=$(number_of "$line" particle_steps_per_s)
+    awk -v n=$n -v first="${first_rate:=$rate}" -v rate="$rate" \
+      'BEGIN { printf "{\"n\":%d,\"time_of_a_particle_step_over_first\":%.3f}\n", n, first / rate }'
+  done
+  exit 0
+fi
 
 own=$("$program" --n "$n" --steps "$steps" --settle "$settle" --threads "$threads")
 echo "$own"
@@ -29,8 +44,6 @@ side=$("$program" --n "$n" --write-data "$work/bed.data")
 export OMP_NUM_THREADS=1 OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
 parallel=()
 [ "$threads" -gt 1 ] && parallel=(mpirun -np "$threads" --oversubscribe)
-
-number_of() { sed -n "s/.*\"$2\":\([0-9.e+-]*\).*/\1/p" <<<"$1"; }
 
 run_peer() { # name, program, deck
   command -v "$2" >/dev/null || { echo "settling: $2 is not installed" >&2; return; }

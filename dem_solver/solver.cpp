@@ -30,15 +30,23 @@ ParticleSolver::ParticleSolver(ParticleModel model)
       step_(model.step),
       skin_(model.skin),
       threads_(model.threads),
-      contacts_(make_contact_model(model.law)) {
+      contacts_(make_contact_model(model.law)),
+      gates_(std::move(model.gates)) {
   if (model.implicit_contact)
     implicit_contact_ = {.control = *model.implicit_contact, .gravity = model.gravity};
   spheres_.add(model.spheres, law_.rotation());
   rocks_ = Rocks(model.rocks, model.spheres);
   if (skin_ <= 0 && spheres_.size() > 0) skin_ = default_skin(spheres_);
   place_ = spheres_.places();
+  if (!gates_.empty()) gates_.watch(spheres_, rocks_);
   gravity_level_at_start_ = gravity_work_level();
 }
+
+ParticleSolver::ParticleSolver(const ParticleSolver& other) = default;
+ParticleSolver::ParticleSolver(ParticleSolver&& other) noexcept = default;
+ParticleSolver& ParticleSolver::operator=(const ParticleSolver& other) = default;
+ParticleSolver& ParticleSolver::operator=(ParticleSolver&& other) noexcept = default;
+ParticleSolver::~ParticleSolver() = default;
 
 void ParticleSolver::step() {
   boundary_.drift(time());
@@ -46,6 +54,7 @@ void ParticleSolver::step() {
   clear_loads();
   evaluate_contacts();
   move_spheres();
+  if (!gates_.empty()) gates_.watch(spheres_, rocks_);
   ++steps_done_;
 }
 
@@ -81,6 +90,19 @@ void ParticleSolver::find_neighbours() {
   travelled_ = 0;
   listed_ = true;
   ++searches_;
+}
+
+void ParticleSolver::fit_to_state() {
+  // Every contact keeps its place: what remains of a rebuild is the sizing of the work arrays.
+  const auto in_place = [](Index slots) {
+    std::vector<SlotMove> moves;
+    for (Index slot = 0; slot < slots; ++slot) moves.push_back({slot, slot});
+    return moves;
+  };
+  const auto pairs = in_place(pair_list_.slots()), planes = in_place(plane_list_.slots()),
+             boundary = in_place(boundary_list_.slots());
+  const ContactStage stage = contact_stage();
+  if (listed_) std::visit([&](auto& model) { model.rebuild(stage, {pairs, planes, boundary}); }, contacts_);
 }
 
 double ParticleSolver::largest_motion() const noexcept {
@@ -190,8 +212,7 @@ ParticleLedger ParticleSolver::ledger() const noexcept {
     ledger.kinetic += energy.translation;
     ledger.rotation += energy.rotation;
   }
-  ledger.elastic =
-      std::visit([&](const auto& model) { return model.stored_energy(boundary_list_); }, contacts_);
+  ledger.elastic = std::visit([](const auto& model) { return model.stored_energy(); }, contacts_);
   ledger.gravity = gravity_work_level() - gravity_level_at_start_;
   return ledger;
 }

@@ -9,6 +9,7 @@
 #include "dem_solver/boundary/planes.hpp"
 #include "dem_solver/collision/pair_list.hpp"
 #include "dem_solver/contact/materials.hpp"
+#include "dem_solver/output/gates.hpp"
 #include "dem_solver/rocks/rocks.hpp"
 #include "dem_solver/scene/contact_models.hpp"
 
@@ -29,6 +30,7 @@ struct ParticleModel {
   std::optional<ImplicitVelocities::Control> implicit_contact;  ///< with the boundary; absent: explicit
   double skin = 0;  ///< m; 0: a fifth of the most frequent size class's radius
   int threads = 1;
+  std::vector<Gate> gates;
 };
 
 /// Energies at the time level of the forces, t_{n-1} after n steps: the one at which leapfrog energies are
@@ -53,6 +55,12 @@ struct ParticleLedger {
 class ParticleSolver {
  public:
   explicit ParticleSolver(ParticleModel model);
+  // Compiled once: they go through every contact law.
+  ParticleSolver(const ParticleSolver& other);
+  ParticleSolver(ParticleSolver&& other) noexcept;
+  ParticleSolver& operator=(const ParticleSolver& other);
+  ParticleSolver& operator=(ParticleSolver&& other) noexcept;
+  ~ParticleSolver();
 
   /// Advances by one step. Forces are those of the positions at the start of the step, of spheres and
   /// boundary alike.
@@ -73,6 +81,7 @@ class ParticleSolver {
 
   const Spheres& spheres() const noexcept { return spheres_; }
   const Rocks& rocks() const noexcept { return rocks_; }
+  const Gates& gates() const noexcept { return gates_; }
   /// Where the sphere that was added as number id stands now.
   Index place(Index id) const noexcept { return place_[id]; }
   Boundary& boundary() noexcept { return boundary_; }
@@ -88,6 +97,12 @@ class ParticleSolver {
 
   /// @pre the model's law has a ledger
   ParticleLedger ledger() const noexcept;
+
+  /// Calls visit(name, value) for every array and number of the state, for checkpoints.
+  template <class Self, class Visitor>
+  static void visit_state(Self& self, const Visitor& visit);
+  /// To be called after visit_state() has replaced the state: sizes what is derived from it.
+  void fit_to_state();
 
  private:
   void find_neighbours();
@@ -126,7 +141,39 @@ class ParticleSolver {
   std::int64_t searches_ = 0;
   std::int64_t sweeps_ = 0, unconverged_steps_ = 0;
   ContactWork work_;
+  Gates gates_;
   double gravity_level_at_start_ = 0;
 };
+
+template <class Self, class Visitor>
+void ParticleSolver::visit_state(Self& self, const Visitor& visit) {
+  const auto part = [&visit](std::string prefix) {
+    return [&visit, prefix = prefix + "."](const std::string& name, auto& value) {
+      visit(prefix + name, value);
+    };
+  };
+  Spheres::visit_state(self.spheres_, part("spheres"));
+  Rocks::visit_state(self.rocks_, part("rocks"));
+  Boundary::visit_state(self.boundary_, part("boundary"));
+  PairList::visit_state(self.pair_list_, part("pair_list"));
+  PlaneList::visit_state(self.plane_list_, part("plane_list"));
+  BoundaryList::visit_state(self.boundary_list_, part("boundary_list"));
+  Gates::visit_state(self.gates_, part("gates"));
+  std::visit([&](auto& model) { std::decay_t<decltype(model)>::visit_state(model, part("contacts")); },
+             self.contacts_);
+  visit("law", self.law_);
+  visit("place", self.place_);
+  visit("listed_position", self.listed_position_);
+  visit("travelled", self.travelled_);
+  visit("listed", self.listed_);
+  visit("steps_done", self.steps_done_);
+  visit("clock_time", self.clock_time_);
+  visit("clock_steps", self.clock_steps_);
+  visit("step", self.step_);
+  visit("searches", self.searches_);
+  visit("sweeps", self.sweeps_);
+  visit("unconverged_steps", self.unconverged_steps_);
+  visit("work", self.work_);
+}
 
 }  // namespace talus::dem

@@ -2,6 +2,8 @@
 
 #include <CLI/CLI.hpp>
 #include <chrono>
+#include <fstream>
+#include <string>
 
 #include "bench/settling/bed.hpp"
 #include "core/program/command_line.hpp"
@@ -36,14 +38,28 @@ double contacts_a_sphere(const dem::ParticleSolver& solver) {
   return 2 * touching / solver.spheres().size();
 }
 
+/// B; a line of /proc/self/status: what the process holds now (VmRSS) or held at most (VmHWM).
+double process_memory(const std::string& line) {
+  std::ifstream status("/proc/self/status");
+  for (std::string word; status >> word;)
+    if (word == line + ":") {
+      double kilobytes = 0;
+      status >> kilobytes;
+      return 1024 * kilobytes;
+    }
+  return 0;
+}
+
 core::ExitCode run(const Options& options) {
-  const bench::Bed bed = bench::make_bed(options.count);
+  const double memory_before = process_memory("VmRSS");
+  bench::Bed bed = bench::make_bed(options.count);
   if (!options.write_data.empty()) {
     bench::write_data_file(bed, options.write_data);
     fmt::print("{:.17g}\n", bed.side);
     return core::ExitCode::success;
   }
   dem::ParticleSolver solver(bench::model_of(bed, options.threads));
+  bed = {};  // so that memory is that of the solver
   for (std::int64_t n = 0; n < options.settle; ++n) solver.step();
   const std::int64_t searches_before = solver.searches();
   const auto start = std::chrono::steady_clock::now();
@@ -53,10 +69,13 @@ core::ExitCode run(const Options& options) {
   fmt::print(
       "{{\"peer\":\"talus\",\"n\":{},\"steps\":{},\"settle\":{},\"threads\":{},\"wall_s\":{:.3f},\"particle_"
       "steps_per_s\":{:.0f},"
-      "\"mean_z_m\":{:.5f},\"kinetic_J\":{:.5g},\"mean_contacts\":{:.3f},\"searches\":{}}}\n",
+      "\"mean_z_m\":{:.5f},\"kinetic_J\":{:.5g},\"mean_contacts\":{:.3f},\"searches\":{},"
+      "\"bytes_per_sphere\":{:.0f},\"peak_bytes_per_sphere\":{:.0f}}}\n",
       options.count, options.steps, options.settle, options.threads, wall, rate,
       mean_height(solver.spheres()), kinetic_energy(solver.spheres()), contacts_a_sphere(solver),
-      solver.searches() - searches_before);
+      solver.searches() - searches_before,
+      (process_memory("VmRSS") - memory_before) / static_cast<double>(options.count),
+      (process_memory("VmHWM") - memory_before) / static_cast<double>(options.count));
   return core::ExitCode::success;
 }
 

@@ -71,7 +71,7 @@ void CheckpointWriter::write(const std::string& name, std::int64_t type, const v
   const Handle space(H5Screate_simple(1, &extent, nullptr), H5Sclose);
   const Handle set(H5Dcreate2(file_, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
                    H5Dclose);
-  if (set < 0 || H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) < 0)
+  if (set < 0 || (size > 0 && H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) < 0))
     throw std::runtime_error(fmt::format("cannot write '{}' to the checkpoint {}", name, path_.string()));
 }
 
@@ -81,6 +81,10 @@ void CheckpointWriter::values(const std::string& name, std::vector<double>& valu
 
 void CheckpointWriter::count(const std::string& name, std::int64_t& count) {
   write(name, H5T_NATIVE_INT64, &count, 1);
+}
+
+void CheckpointWriter::bytes(const std::string& name, std::span<const std::byte> bytes) {
+  write(name, H5T_NATIVE_UCHAR, bytes.data(), bytes.size());
 }
 
 void CheckpointWriter::commit() {
@@ -114,7 +118,7 @@ void CheckpointReader::read(const std::string& name, std::int64_t type, void* da
     throw ConfigError(
         fmt::format("the checkpoint {} has {} numbers for '{}', this scene {}: it belongs to another scene",
                     path_.string(), found, name, size));
-  if (H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) < 0)
+  if (size > 0 && H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) < 0)
     throw ConfigError(fmt::format("'{}' of the checkpoint {} cannot be read", name, path_.string()));
 }
 
@@ -124,6 +128,15 @@ void CheckpointReader::values(const std::string& name, std::vector<double>& valu
 
 void CheckpointReader::count(const std::string& name, std::int64_t& count) {
   read(name, H5T_NATIVE_INT64, &count, 1);
+}
+
+std::vector<std::byte> CheckpointReader::bytes(const std::string& name) {
+  const Handle set(H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose);
+  if (set < 0) throw ConfigError(fmt::format("the checkpoint {} has no '{}'", path_.string(), name));
+  const Handle space(H5Dget_space(set), H5Sclose);
+  std::vector<std::byte> bytes(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)));
+  read(name, H5T_NATIVE_UCHAR, bytes.data(), bytes.size());
+  return bytes;
 }
 
 }  // namespace talus::core

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -27,6 +29,8 @@ class CheckpointWriter final : public StateArchive {
 
   void values(const std::string& name, std::vector<double>& values) override;
   void count(const std::string& name, std::int64_t& count) override;
+  /// Records of any kind, as this machine holds them.
+  void bytes(const std::string& name, std::span<const std::byte> bytes);
   /// @throws std::runtime_error where the file system refuses
   void commit();
 
@@ -48,6 +52,8 @@ class CheckpointReader final : public StateArchive {
   /// @throws ConfigError where the name is missing or the size is another
   void values(const std::string& name, std::vector<double>& values) override;
   void count(const std::string& name, std::int64_t& count) override;
+  /// As many as were written. @throws ConfigError where the name is missing
+  std::vector<std::byte> bytes(const std::string& name);
 
  private:
   void read(const std::string& name, std::int64_t type, void* data, std::size_t size);

@@ -7,6 +7,7 @@
 #include "core/errors.hpp"
 #include "core/program/command_line.hpp"
 #include "dem_solver/app/particle_run.hpp"
+#include "dem_solver/output/checkpoint.hpp"
 
 namespace talus::dem {
 
@@ -71,8 +72,9 @@ class Server {
       case Action::report:
         return coupler::report(participant_, command, run_.output);
       case Action::write_checkpoint:
+        return write_checkpoint(run_.solver, command.path);
       case Action::read_checkpoint:
-        throw core::UsageError("dem_solver writes and reads no checkpoints");
+        return read_checkpoint(run_.solver, command.path);
       case Action::finish:
         break;
     }

@@ -4,15 +4,15 @@
 #include <vector>
 
 #include "dem_solver/boundary/touching_features.hpp"
+#include "dem_solver/contact/contact_batch.hpp"
 #include "dem_solver/contact/implicit_contact.hpp"
-#include "dem_solver/contact/memory.hpp"
 #include "dem_solver/contact/rigid_contact.hpp"
 
 namespace talus::dem {
 
 /// Contacts of spheres with the features of a boundary, and the boundary's reactions.
 template <class Law>
-class BoundaryContacts {
+class BoundaryContacts : public ContactBatch<Law> {
  public:
   struct Context {
     Spheres& spheres;
@@ -23,9 +23,11 @@ class BoundaryContacts {
     int threads = 1;
   };
 
+  /// A task is a chunk of spheres.
   void rebuild(const BoundaryList& list, std::span<const SlotMove> moves) {
-    memory_.rebuild(list.slots(), moves);
-    scratch_.resize(static_cast<std::size_t>(list.spheres().size() / chunk + 1));
+    const auto tasks = static_cast<Index>(list.spheres().size()) / chunk + 1;
+    ContactBatch<Law>::rebuild(list.slots(), moves, tasks);
+    scratch_.resize(static_cast<std::size_t>(tasks));
     for (Scratch& s : scratch_) s.reserve(list.most_candidates());
   }
 
@@ -33,11 +35,13 @@ class BoundaryContacts {
   void evaluate(const Context& context) noexcept {
     const auto count = static_cast<Index>(context.list.spheres().size());
     const Index tasks = (count + chunk - 1) / chunk;
+    this->clear_work();
 #pragma omp parallel for schedule(dynamic) num_threads(context.threads) if (context.threads > 1 && tasks > 1)
     for (Index task = 0; task < tasks; ++task) {
-      scratch_[task].work = {};
+      ContactWork work;
       for (Index k = task * chunk; k < std::min(count, (task + 1) * chunk); ++k)
-        evaluate_sphere(context, k, scratch_[task]);
+        evaluate_sphere(context, k, scratch_[task], work);
+      this->add_work(task, work);
     }
     collect_reactions(context);
   }
@@ -47,44 +51,29 @@ class BoundaryContacts {
   /// @return the sweeps that were needed; most_sweeps + 1: not converged
   int evaluate_implicitly(const Context& context, const ImplicitContact& implicit) noexcept {
     const auto spheres = static_cast<Index>(context.list.spheres().size());
-    for (Scratch& s : scratch_) s.work = {};
     if (scratch_.empty()) return 0;
-    for (Index k = 0; k < spheres; ++k) find_contacts(context, k, scratch_[0]);
+    this->clear_work();
+    ContactWork work;
+    for (Index k = 0; k < spheres; ++k) find_contacts(context, k, scratch_[0], work);
     system_.gather_bodies(context.spheres, context.list.spheres(), context.boundary, implicit, context.step);
     for_each_contact(context, [&](Index k, Index slot) { add_to_system(context, k, slot); });
     const int sweeps = system_.solve(context.step, implicit.control);
     std::size_t next = 0;
     for_each_contact(context, [&](Index k, Index slot) {
-      evaluate_contact(context, k, slot, system_.velocity_gain(next++), scratch_[0].work);
+      evaluate_contact(context, k, slot, system_.velocity_gain(next++), work);
     });
+    this->add_work(0, work);
     collect_reactions(context);
     return sweeps;
   }
 
-  ContactWork last_work() const noexcept requires Law::has_ledger {
-    ContactWork work;
-    for (const Scratch& s : scratch_) work += s.work;
-    return work;
-  }
-  double stored_energy(const BoundaryList& list) const noexcept requires Law::has_ledger {
-    double sum = 0;
-    for (std::size_t k = 0; k < list.spheres().size(); ++k)
-      for (Index c = 0; c < list.count()[k]; ++c)
-        sum += Law::stored_energy(memory_.all()[list.first()[k] + c]);
-    return sum;
-  }
-
-  template <class Self, class Visitor>
-  static void visit_state(Self& self, Visitor&& visit) {
-    ContactMemory<Law>::visit_state(self.memory_, visit);
-  }
-
  private:
+  using ContactBatch<Law>::memory_;
+  using typename ContactBatch<Law>::Memory;
   static constexpr Index chunk = 64;  ///< spheres a task; fixed, so that sums don't depend on the threads
   static constexpr double same_contact =
       0.866;  ///< cos 30 degrees: the most a contact's normal turns in a step
 
-  using Memory = typename Law::StoredMemory;
   struct OldContact {
     BoundaryContact contact;
     Memory memory;
@@ -93,28 +82,27 @@ class BoundaryContacts {
   struct Scratch {
     std::vector<FeatureTouch> touches;
     std::vector<OldContact> old;
-    ContactWork work;
     void reserve(Index candidates) {
       touches.reserve(static_cast<std::size_t>(candidates));
       old.reserve(static_cast<std::size_t>(candidates));
     }
   };
 
-  void evaluate_sphere(const Context& context, Index k, Scratch& scratch) noexcept {
-    find_contacts(context, k, scratch);
+  void evaluate_sphere(const Context& context, Index k, Scratch& scratch, ContactWork& work) noexcept {
+    find_contacts(context, k, scratch, work);
     const Index begin = context.list.first()[k];
     for (Index slot = begin; slot < begin + context.list.count()[k]; ++slot)
-      evaluate_contact(context, k, slot, {}, scratch.work);
+      evaluate_contact(context, k, slot, {}, work);
   }
 
   /// The sphere's contacts at t_n, in its slots, with the memory of those they continue.
-  void find_contacts(const Context& context, Index k, Scratch& scratch) noexcept {
+  void find_contacts(const Context& context, Index k, Scratch& scratch, ContactWork& work) noexcept {
     const Index begin = context.list.first()[k], end = context.list.first()[k + 1],
                 i = context.list.spheres()[k];
     Index& count = context.list.count()[k];
     scratch.old.clear();
     for (Index slot = begin; slot < begin + count; ++slot)
-      scratch.old.push_back({context.list.contacts()[slot], recall(slot)});
+      scratch.old.push_back({context.list.contacts()[slot], memory_.recall(slot)});
 
     find_touching_features(context.boundary, context.spheres.position[i],
                            context.list.candidates().subspan(begin, static_cast<std::size_t>(end - begin)),
@@ -125,12 +113,13 @@ class BoundaryContacts {
       const OldContact old = continued(scratch.old, touch.normal, part);
       context.list.contacts()[slot] = {old.contact.force, row(touch.normal, touch.distance), touch.weights,
                                        touch.feature, part};
-      remember(slot++, old.memory);
+      memory_.remember(slot++, old.memory);
     }
+    for (Index left = slot; left < begin + count; ++left) memory_.remember(left, {});
     count = slot - begin;
     if constexpr (Law::has_ledger)
       for (OldContact& ended : scratch.old)
-        if (!ended.continued) end_contact(context, i, ended, scratch.work);
+        if (!ended.continued) end_contact(context, i, ended, work);
   }
 
   template <class Visit>
@@ -145,7 +134,7 @@ class BoundaryContacts {
     const BoundaryContact& contact = context.list.contacts()[slot];
     const RigidTouch touch = rigid_touch(context, i, contact);
     ImplicitVelocities::Contact unknown =
-        springs_at_rest<Law>(context.spheres, touch, recall(slot), triple<double>(contact.force));
+        springs_at_rest<Law>(context.spheres, touch, memory_.recall(slot), triple<double>(contact.force));
     unknown.sphere = k;
     unknown.nodes = context.boundary.features()[contact.feature].nodes;
     unknown.weights = {contact.weights.a, contact.weights.b, contact.weights.c};
@@ -172,9 +161,9 @@ class BoundaryContacts {
   void evaluate_contact(const Context& context, Index k, Index slot, const Triple<double>& velocity_gain,
                         ContactWork& work) noexcept {
     BoundaryContact& contact = context.list.contacts()[slot];
-    Memory memory = recall(slot);
+    Memory memory = memory_.recall(slot);
     evaluate(context, context.list.spheres()[k], contact, velocity_gain, memory, work);
-    remember(slot, memory);
+    memory_.remember(slot, memory);
   }
 
   static RigidTouch rigid_touch(const Context& context, Index i, const BoundaryContact& contact) noexcept {
@@ -218,17 +207,6 @@ class BoundaryContacts {
     });
   }
 
-  Memory recall(Index slot) noexcept {
-    if constexpr (Law::memory_rows > 0)
-      return memory_[slot];
-    else
-      return {};
-  }
-  void remember(Index slot, const Memory& memory) noexcept {
-    if constexpr (Law::memory_rows > 0) memory_[slot] = memory;
-  }
-
-  [[no_unique_address]] ContactMemory<Law> memory_;
   std::vector<Scratch> scratch_;  ///< one a task
   ImplicitSystem system_;         ///< empty where contacts are explicit
 };

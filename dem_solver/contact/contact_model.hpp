@@ -41,16 +41,16 @@ class ContactModel {
   /// J; since the last evaluation. Zero without a ledger.
   ContactWork last_work() const noexcept;
   /// J; in the springs at the last evaluation. Zero without a ledger.
-  double stored_energy(const BoundaryList& boundary_list) const noexcept;
+  double stored_energy() const noexcept;
 
   template <class Self, class Visitor>
   static void visit_state(Self& self, Visitor&& visit) {
-    PairContacts<Law>::visit_state(self.pairs_,
-                                   [&](const char*, auto& array) { visit("pair_memory", array); });
-    PlaneContacts<Law>::visit_state(self.planes_,
-                                    [&](const char*, auto& array) { visit("plane_memory", array); });
-    BoundaryContacts<Law>::visit_state(self.boundary_,
-                                       [&](const char*, auto& array) { visit("boundary_memory", array); });
+    const auto as = [&](const char* name) {
+      return [&visit, name](const char*, auto& array) { visit(name, array); };
+    };
+    ContactBatch<Law>::visit_state(self.pairs_, as("pair_memory"));
+    ContactBatch<Law>::visit_state(self.planes_, as("plane_memory"));
+    ContactBatch<Law>::visit_state(self.boundary_, as("boundary_memory"));
   }
 
  private:

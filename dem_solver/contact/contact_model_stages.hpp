@@ -37,9 +37,9 @@ ContactWork ContactModel<Law>::last_work() const noexcept {
 }
 
 template <class Law>
-double ContactModel<Law>::stored_energy(const BoundaryList& boundary_list) const noexcept {
+double ContactModel<Law>::stored_energy() const noexcept {
   if constexpr (Law::has_ledger)
-    return pairs_.stored_energy() + planes_.stored_energy() + boundary_.stored_energy(boundary_list);
+    return pairs_.stored_energy() + planes_.stored_energy() + boundary_.stored_energy();
   else
     return 0;
 }

@@ -23,7 +23,8 @@ class ContactMemory {
     slots_.swap(moved);
   }
 
-  TALUS_INLINE Slot& operator[](Index slot) noexcept { return slots_[slot]; }
+  Slot recall(Index slot) const noexcept { return slots_[slot]; }
+  void remember(Index slot, const Slot& memory) noexcept { slots_[slot] = memory; }
   std::span<const Slot> all() const noexcept { return slots_; }
 
   /// The memory of four contacts as lanes.
@@ -57,7 +58,11 @@ class ContactMemory {
 template <class Law>
 class ContactMemory<Law, 0> {
  public:
+  using Slot = typename Law::StoredMemory;
+
   void rebuild(Index, std::span<const SlotMove>) noexcept {}
+  Slot recall(Index) const noexcept { return {}; }
+  void remember(Index, const Slot&) noexcept {}
   template <class Index4>
   TALUS_INLINE typename Law::template Memory<Lanes> lanes(const Index4&) const noexcept {
     return {};

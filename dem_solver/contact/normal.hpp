@@ -57,8 +57,8 @@ struct Hertz {
 ///     k  · stiffness             · N/m · parameters.normal.x
 ///     kt · tangential stiffness  · N/m · parameters.normal.y
 ///     z  · damping ratio         · 1   · parameters.normal.z      from oscillator_damping_ratio()
-/// Its duration and restitution have no test yet. Test: unit "The normal force is the
-/// derivative of its energy".
+/// Tests: "A collision on linear springs lasts as long as the oscillator and rebounds as asked for", unit
+/// "The normal force is the derivative of its energy".
 struct LinearSpring {
   template <class Real>
   TALUS_INLINE static NormalForce<Real> force(const Touch<Real>& touch,

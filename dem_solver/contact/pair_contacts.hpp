@@ -3,9 +3,9 @@
 #include <vector>
 
 #include "dem_solver/collision/pair_list.hpp"
+#include "dem_solver/contact/contact_batch.hpp"
 #include "dem_solver/contact/law.hpp"
 #include "dem_solver/contact/materials.hpp"
-#include "dem_solver/contact/memory.hpp"
 
 namespace talus::dem {
 
@@ -17,11 +17,11 @@ struct TouchingPair {
 /// Contacts between spheres: a cheap test picks the touching pairs, the law then works on four of them at a
 /// time.
 template <class Law>
-class PairContacts {
+class PairContacts : public ContactBatch<Law> {
  public:
+  /// A task is a slab; the last is that of the wide pairs.
   void rebuild(const PairList& list, std::span<const SlotMove> moves) {
-    memory_.rebuild(list.slots(), moves);
-    if constexpr (Law::has_ledger) slab_loss_.assign(static_cast<std::size_t>(list.slab_count()) + 1, {});
+    ContactBatch<Law>::rebuild(list.slots(), moves, list.slab_count() + 1);
   }
 
   struct Context {
@@ -35,6 +35,7 @@ class PairContacts {
   /// Adds the contact forces (and torques) of all pairs to the spheres, in an order that does not depend on
   /// the number of threads.
   void evaluate(const Context& context) noexcept {
+    this->clear_work();
     for (int pass = 0; pass < PairList::passes; ++pass) {
       const Index slabs = context.list.slab_count();
 #pragma omp parallel for schedule(dynamic) num_threads(context.threads) if (context.threads > 1)
@@ -43,25 +44,8 @@ class PairContacts {
     if (!context.list.wide().empty()) evaluate_wide(context);
   }
 
-  /// J; dissipated since the last call of evaluate().
-  ContactWork last_work() const noexcept requires Law::has_ledger {
-    ContactWork work;
-    for (const ContactWork& loss : slab_loss_) work += loss;
-    return work;
-  }
-  /// J; in the springs at the last evaluation.
-  double stored_energy() const noexcept requires Law::has_ledger {
-    double sum = 0;
-    for (const auto& memory : memory_.all()) sum += Law::stored_energy(memory);
-    return sum;
-  }
-
-  template <class Self, class Visitor>
-  static void visit_state(Self& self, Visitor&& visit) {
-    ContactMemory<Law>::visit_state(self.memory_, visit);
-  }
-
  private:
+  using ContactBatch<Law>::memory_;
   static constexpr int buffer_size =
       256;  ///< touching pairs collected before the law runs; stays in the first-level cache
 
@@ -95,7 +79,7 @@ class PairContacts {
       }
     }
     flush(context, buffer, work);
-    if constexpr (Law::has_ledger) slab_loss_[slab] = work;
+    this->add_work(slab, work);
   }
 
   void evaluate_wide(const Context& context) noexcept {
@@ -107,7 +91,7 @@ class PairContacts {
       if (buffer.count == buffer_size) flush(context, buffer, work);
     }
     flush(context, buffer, work);
-    if constexpr (Law::has_ledger) slab_loss_.back() = work;
+    this->add_work(context.list.slab_count(), work);
   }
 
   void flush(const Context& context, Buffer& buffer, ContactWork& work) noexcept {
@@ -205,9 +189,6 @@ class PairContacts {
       store(to_second, load(to_second) + second[k]);
     }
   }
-
-  [[no_unique_address]] ContactMemory<Law> memory_;
-  std::vector<ContactWork> slab_loss_;  ///< a slab each, then that of the wide pairs; empty without a ledger
 };
 
 }  // namespace talus::dem

@@ -16,7 +16,9 @@ TALUS_INLINE Triple<Real> rolling_velocity(const Touch<Real>& touch) noexcept {
 ///     mu_r · rolling friction coefficient · 1 · parameters.rolling.x
 ///     w    · relative rolling velocity    · rad/s
 /// The torque never reverses the rolling within a step: it is limited to the one that stops it, I w/step.
-/// Without that limit a resting sphere rocks for ever (their figure 5). No test proves it yet.
+/// Without that limit a resting sphere rocks for ever (their figure 5). Tests: "Rolling resistance of either
+/// kind slows a rolling sphere by 5/7 mu_r g", "A constant rolling torque brings a sphere to rest without
+/// rocking it".
 struct ConstantTorque {
   static constexpr int memory_rows = 0;
 
@@ -41,7 +43,8 @@ struct ConstantTorque {
 ///     kn   · normal tangent stiffness             · N/m     · of the normal law
 ///     I    · reduced inertia about the contact    · kg m^2
 ///     Mk   · spring torque on the first sphere    · N m     · memory x y z; turned with the contact plane
-/// No test proves it yet.
+/// Tests: "The elastic rolling spring rocks a sphere at its own frequency and damping", "Elastic-plastic
+/// rolling resistance holds a sphere on a slope below mu_r and lets it roll above".
 struct ElasticPlasticRolling {
   static constexpr int memory_rows = 1;
 

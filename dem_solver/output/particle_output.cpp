@@ -30,6 +30,10 @@ void ParticleOutput::describe_probes() {
   };
   for (const auto& [name, id] : named_.spheres) add_body(name, solver_.spheres().rotates());
   for (const auto& [name, k] : named_.rocks) add_body(name, true);
+  for (const Gate& gate : solver_.gates().gates())
+    for (const char* quantity :
+         {".stones_passed", ".mass_passed_kg", ".energy_passed_J", ".smallest_radius_m", ".largest_radius_m"})
+      description_.probes.push_back({gate.name + quantity});
 }
 
 void ParticleOutput::describe_ledger() {
@@ -115,6 +119,10 @@ void ParticleOutput::fill_probes(std::span<double> values) const {
     put(rocks.force(k));
     *next++ = energy(rocks.mass(k), rocks.velocity(k)) + 0.5 * dot(rocks.spin(k), rocks.angular_momentum(k));
   }
+  for (const Passed& passed : solver_.gates().passed())
+    for (double value : {static_cast<double>(passed.stones), passed.mass, passed.kinetic_energy,
+                         passed.smallest_radius, passed.largest_radius})
+      *next++ = value;
 }
 
 void ParticleOutput::fill_ledger(std::span<double> joules) const {

@@ -38,6 +38,18 @@ struct Spheres {
   void reorder(std::span<const Index> order);
   /// Where each id stands now.
   std::vector<Index> places() const;
+
+  template <class Self, class Visitor>
+  static void visit_state(Self& self, Visitor&& visit) {
+    visit("position", self.position);
+    visit("velocity", self.velocity);
+    visit("spin", self.spin);
+    visit("force", self.force);
+    visit("torque", self.torque);
+    visit("material", self.material);
+    visit("id", self.id);
+    visit("rock", self.rock);
+  }
 };
 
 }  // namespace talus::dem

@@ -15,10 +15,13 @@ Rocks::Rocks(std::span<const RockInput> rocks, std::span<const SphereInput> sphe
     const Triple<double> w = rotate_back(rock.orientation, rock.spin);
     momentum_.push_back(
         rotate(rock.orientation, {rock.moments.x * w.x, rock.moments.y * w.y, rock.moments.z * w.z}));
+    radius_.push_back(0);
     for (Index id = 0; id < static_cast<Index>(spheres.size()); ++id) {
       if (spheres[id].rock != k) continue;
+      const Triple<double> arm = spheres[id].position - rock.centre;
       members_.push_back(id);
-      member_offset_.push_back(rotate_back(rock.orientation, spheres[id].position - rock.centre));
+      member_offset_.push_back(rotate_back(rock.orientation, arm));
+      radius_.back() = std::max(radius_.back(), length(arm) + spheres[id].radius);
     }
     first_member_.push_back(static_cast<Index>(members_.size()));
   }

@@ -38,6 +38,8 @@ class Rocks {
   void move(const Spheres& spheres, std::span<const Index> place, const LeapfrogStep& how) noexcept;
 
   double mass(Index k) const noexcept { return mass_[k]; }
+  /// m; of the sphere about the centre that holds the rock.
+  double radius(Index k) const noexcept { return radius_[k]; }
   const Triple<double>& centre(Index k) const noexcept { return centre_[k]; }
   const Triple<double>& velocity(Index k) const noexcept { return velocity_[k]; }
   const Triple<double>& force(Index k) const noexcept { return force_[k]; }
@@ -65,7 +67,7 @@ class Rocks {
   }
 
  private:
-  std::vector<double> mass_;
+  std::vector<double> mass_, radius_;
   std::vector<Triple<double>> moments_;
   std::vector<Index> first_member_;            ///< one more than rocks
   std::vector<Index> members_;                 ///< ids of spheres

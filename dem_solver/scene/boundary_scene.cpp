@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "interface_mesh/net.hpp"
+#include "interface_mesh/surface_checks.hpp"
 
 namespace talus::dem {
 
@@ -42,6 +43,7 @@ mesh::Surface surface_of(const std::string& name, const BoundaryScene& boundary)
     part.material = boundary.material;
     part.wire_radius = boundary.wire_radius.value_or(part.wire_radius);
   }
+  mesh::check(surface, "particles.boundaries." + name);
   return surface;
 }
 

@@ -39,6 +39,7 @@ void describe(core::Fields& fields, BoundaryScene& boundary);
 
 /// The surface of all boundaries; its parts are named after the boundary they belong to.
 /// @pre the scene was read without complaints
+/// @throws ConfigError with the faults of a surface: triangles without area, segments without length ...
 mesh::Surface make_surface(const std::vector<std::pair<std::string, BoundaryScene>>& boundaries);
 
 /// Adds the nodes, cells and parts of another surface behind those of the first.

@@ -173,6 +173,7 @@ ParticleModel build_model(const ParticlesScene& particles, const mesh::Surface& 
     for (const auto& [name, boundary] : particles.boundaries)
       if (boundary.velocity && name == surface.parts[k].name)
         model.boundary.set_velocity(static_cast<Index>(k), triple_of(*boundary.velocity));
+  for (const auto& [name, gate] : particles.gates) model.gates.push_back(make_gate(name, gate));
   check_overlaps(model.spheres);
   model.pairs = pair_table(particles);
   model.law = law_of(particles, context);

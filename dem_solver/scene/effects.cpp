@@ -56,6 +56,7 @@ std::vector<ParticleEffect> effects_of(const ParticlesScene& particles, const Ef
       effect("falling friction coefficient", suffixed(falling, ".friction.decay_speed"),
              "no contact names `friction.decay_speed`"),
       effect("rolling resistance", suffixed(rolling, ".rolling"), "no contact names `rolling`"),
+      effect("gates", particles.gates.empty() ? "" : "particles.gates", "particles.gates is absent"),
       effect("energy ledger", context.has_output ? "output" : "", "output is absent"),
   };
 }

@@ -35,6 +35,7 @@ void describe(core::Fields& fields, ParticlesScene& particles) {
   fields.map("planes", particles.planes, "infinite planes, by name");
   fields.map("boundaries", particles.boundaries,
              "rigid wires and faces at rest or at constant velocity, by name");
+  fields.map("gates", particles.gates, "planes that count the stones which pass them, by name");
   fields.optional("step", particles.step,
                   {.unit = "s", .range = core::positive, .help = "of the particles; absent: time.step"});
   fields.section(

@@ -8,6 +8,7 @@
 
 #include "dem_solver/scene/boundary_scene.hpp"
 #include "dem_solver/scene/contact_scene.hpp"
+#include "dem_solver/scene/gate_scene.hpp"
 #include "dem_solver/scene/rock_scene.hpp"
 #include "dem_solver/scene/stream_scene.hpp"
 
@@ -43,6 +44,7 @@ struct ParticlesScene {
   Named<StreamScene> streams;
   Named<PlaneScene> planes;
   Named<BoundaryScene> boundaries;
+  Named<GateScene> gates;
   std::optional<double> step;  ///< s
   std::optional<ImplicitContactScene> implicit_contact;
   enum class UnstableStep { refused, allowed } unstable_step = UnstableStep::refused;

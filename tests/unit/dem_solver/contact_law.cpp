@@ -13,6 +13,7 @@ Touch<double> touch_with(double overlap) {
   return {.normal = {0, 0, 1},
           .overlap = overlap,
           .velocity = {},
+          .travelled = {},
           .spin = {},
           .reduced_radius = 0.05,
           .reduced_mass = 2};

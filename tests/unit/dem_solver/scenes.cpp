@@ -1,9 +1,12 @@
+#include <array>
 #include <catch2/catch.hpp>
 
 #include "dem_solver/app/standalone.hpp"
 #include "tests/support/folder.hpp"
 #include "tests/support/scenes.hpp"
 
+#include "dem_solver/rocks/polyhedron.hpp"
+#include "dem_solver/scene/build_model.hpp"
 #include "dem_solver/scene/overlap_check.hpp"
 #include "dem_solver/scene/particles_scene.hpp"
 
@@ -65,6 +68,66 @@ TEST_CASE("Bad particle scenes are refused with a message that says what to do")
   CHECK_THAT(text("  streams: {s: {material: rock, count: 1000000, radius: [0.1], low: [0, 0, 0], high: [1, "
                   "1, 1]}}\n"),
              Contains("the box has room for 125 spheres"));
+}
+
+namespace {
+
+/// A tetrahedron with three edges along the axes, from a corner on; facing outwards.
+void add_tetrahedron(mesh::Surface& surface, const core::Vector3& corner) {
+  const mesh::Index first = surface.node_count();
+  for (const core::Vector3& p :
+       {core::Vector3(0, 0, 0), core::Vector3(1, 0, 0), core::Vector3(0, 1, 0), core::Vector3(0, 0, 1)})
+    for (int k = 0; k < 3; ++k) surface.positions.push_back(corner[k] + p[k]);
+  for (const auto& [a, b, c] : {std::array{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}})
+    surface.triangles.push_back({first + a, first + b, first + c});
+}
+
+}  // namespace
+
+TEST_CASE("Surfaces that are no rock are refused with the place of the fault") {
+  using Catch::Contains;
+  mesh::Surface apart, crossing;
+  add_tetrahedron(apart, {0, 0, 0});
+  add_tetrahedron(apart, {5, 0, 0});
+  CHECK(dem::closed_surface_fault(apart).empty());
+  add_tetrahedron(crossing, {0, 0, 0});
+  add_tetrahedron(crossing, {0.1, 0.2, 0.3});
+  CHECK_THAT(dem::closed_surface_fault(crossing), Contains("crosses itself: triangles"));
+  mesh::Surface inside_out = apart;
+  for (auto& t : inside_out.triangles) std::swap(t[0], t[1]);
+  CHECK_THAT(dem::closed_surface_fault(inside_out), Contains("turned inside out"));
+  mesh::Surface open = apart;
+  open.triangles.pop_back();
+  CHECK_THAT(dem::closed_surface_fault(open), Contains("is not closed: the edge from (6.0"));
+}
+
+TEST_CASE("Triangles without area and wires without length are refused as boundaries") {
+  using Catch::Contains;
+  const auto surface_of = [](const std::vector<core::Vector3>& positions, const dem::NodesScene& cells) {
+    dem::BoundaryScene boundary;
+    dem::NodesScene nodes = cells;
+    nodes.positions = positions;
+    boundary.shape = nodes;
+    return dem::make_surface({{"slope", boundary}});
+  };
+  const std::vector<core::Vector3> straight{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, same{{1, 2, 3}, {1, 2, 3}};
+  CHECK_THROWS_WITH(surface_of(straight, {.positions = {}, .segments = {}, .triangles = {0, 1, 2}}),
+                    Contains("particles.boundaries.slope") && Contains("has no area"));
+  CHECK_THROWS_WITH(surface_of(same, {.positions = {}, .segments = {0, 1}, .triangles = {}}),
+                    Contains("particles.boundaries.slope"));
+}
+
+TEST_CASE("Rocks that overlap at the start are refused with their depth") {
+  dem::ParticlesScene scene;
+  const std::string text =
+      "  contacts: [{between: [rock, rock], hertz: {restitution: 0.5}}]\n"
+      "  rocks:\n"
+      "    a: {material: rock, block: {edge: 1, deviation: 0.1}, at: [0, 0, 0]}\n"
+      "    b: {material: rock, block: {edge: 1, deviation: 0.1}, at: [0.75, 0, 0]}\n";
+  REQUIRE(test::complaints_about(scene_with(text), scene, "particles").empty());
+  // The largest sphere of a block of edge 1 touches its faces: the blocks' overlap by a quarter of the edge.
+  CHECK_THROWS_WITH(dem::build_model(scene, {}, {.step = 1e-5}),
+                    Catch::Contains("overlap at time 0; the deepest by 0.25 m"));
 }
 
 TEST_CASE("Spheres that overlap at the start are refused with their depth") {

@@ -1,7 +1,10 @@
 #include <catch2/catch.hpp>
 
+#include <array>
 #include <random>
 
+#include "dem_solver/output/checkpoint.hpp"
+#include "tests/support/folder.hpp"
 #include "tests/verification/particles/particle_models.hpp"
 
 using namespace talus;
@@ -62,6 +65,79 @@ TEST_CASE("A copy of the solver continues with the same bits") {
   state_after(solver, 1000);
   ParticleSolver saved = solver;
   CHECK(state_after(saved, 1000) == state_after(solver, 1000));
+}
+
+TEST_CASE("A solver restored from a checkpoint continues with the same bits") {
+  const test::Folder folder("dem_checkpoint");
+  ParticleSolver solver(shaken_box(1));
+  state_after(solver, 1234);
+  write_checkpoint(solver, folder / "state.h5");
+  ParticleSolver restored(shaken_box(2));
+  read_checkpoint(restored, folder / "state.h5");
+  CHECK(restored.steps_done() == 1234);
+  CHECK(state_after(restored, 1000) == state_after(solver, 1000));
+}
+
+namespace {
+
+/// A rock of two spheres and some spheres fall into a trough of two moving triangles and a wire.
+ParticleModel rock_in_a_trough() {
+  const SphereCase c{
+      .radius = 0.02, .youngs_modulus = 1e7, .restitution = 0.4, .friction = 0.5, .step = 2e-5};
+  ParticleModel model = model_of(c, rigid());
+  model.law.ledger = true;
+  model.gravity = {0, 0, -9.81};
+  mesh::Surface trough;
+  trough.positions = {0, -1, 0, 0, 1, 0, 1, 0, 0.3, -1, 0, 0.3, -1, 0.01, 0.02, 1, 0.01, 0.02};
+  trough.triangles = {{0, 1, 2}, {0, 1, 3}};
+  trough.segments = {{4, 5}};
+  trough.parts = {{.name = "slopes", .triangle_end = 2},
+                  {.name = "wire", .wire_radius = 0.005, .segment_end = 1}};
+  model.boundary = Boundary(trough, std::array<Index, 2>{1, 1});
+  model.boundary.set_velocity(0, {0.1, 0, 0});
+  for (int i = 0; i < 5; ++i)
+    model.spheres.push_back(c.sphere({0.05 * i - 0.1, 0.05, 0.1}, {0, 0, -1}, {9, 0, 0}));
+  for (const double x : {-0.015, 0.015}) {
+    SphereInput part = c.sphere({x, 0, 0.2}, {0, 0, -2});
+    part.mass = 2 * c.mass();
+    part.rock = 0;
+    model.spheres.push_back(part);
+  }
+  model.rocks = {{.mass = 2 * c.mass(),
+                  .moments = {1e-5, 3e-5, 4e-5},
+                  .centre = {0, 0, 0.2},
+                  .velocity = {0, 0, -2},
+                  .spin = {5, 20, 1}}};
+  return model;
+}
+
+}  // namespace
+
+TEST_CASE("Rocks and contacts with a moving boundary continue from a checkpoint with the same bits") {
+  const test::Folder folder("dem_checkpoint_rock");
+  ParticleSolver solver(rock_in_a_trough());
+  state_after(solver, 3000);
+  REQUIRE(std::ranges::any_of(solver.boundary_list().count(), [](Index n) { return n > 0; }));
+  write_checkpoint(solver, folder / "state.h5");
+  ParticleSolver restored(rock_in_a_trough());
+  read_checkpoint(restored, folder / "state.h5");
+  CHECK(state_after(restored, 3000) == state_after(solver, 3000));
+  CHECK(restored.rocks().orientation(0).x == solver.rocks().orientation(0).x);
+}
+
+TEST_CASE("A checkpoint of another scene is refused") {
+  const test::Folder folder("dem_checkpoint_other");
+  ParticleSolver solver(shaken_box(1));
+  write_checkpoint(solver, folder / "state.h5");
+  ParticleModel without_ledger = shaken_box(1);
+  without_ledger.law.ledger = false;
+  ParticleSolver unlike(without_ledger);
+  CHECK_THROWS_WITH(read_checkpoint(unlike, folder / "state.h5"), Catch::Contains("other terms"));
+  ParticleModel fewer = shaken_box(1);
+  fewer.spheres.pop_back();
+  ParticleSolver other(fewer);
+  CHECK_THROWS_WITH(read_checkpoint(other, folder / "state.h5"), Catch::Contains("belongs to another scene"));
+  CHECK_THROWS_WITH(read_checkpoint(other, folder / "none.h5"), Catch::Contains("cannot be read as a checkpoint"));
 }
 
 TEST_CASE("The neighbour list finds every touching pair of sizes 1 to 50") {

@@ -6,6 +6,7 @@
 #include "dem_solver/rocks/ball_union.hpp"
 #include "dem_solver/rocks/polyhedron.hpp"
 #include "dem_solver/rocks/sphere_filling.hpp"
+#include "dem_solver/scene/rock_scene.hpp"
 #include "tests/verification/particles/particle_models.hpp"
 
 using namespace talus;
@@ -81,6 +82,46 @@ TEST_CASE("A filling's spheres stay inside the rock and come closer to it with a
     CHECK(filling.deviation < last);
     last = filling.deviation;
   }
+}
+
+TEST_CASE("The spheres of a filled rock approach its volume and inertia as they become more") {
+  const mesh::Surface block = make_block({1, 0.25});
+  const MassProperties solid = mass_properties(polyhedron_moments(block), 1);
+  double volume_error = 1, inertia_error = 1;
+  std::size_t spheres = 0;
+  for (double deviation : {0.2, 0.1}) {
+    const SphereFilling filling = fill_with_spheres(block, {.deviation = deviation});
+    const MassProperties filled = mass_properties(union_moments(filling.balls), 1);
+    const double volume_now = 1 - filled.mass / solid.mass,
+                 inertia_now = 1 - filled.inertia.trace() / solid.inertia.trace();
+    CHECK(filling.balls.size() > spheres);
+    // Inscribed spheres leave something out, less each time.
+    CHECK(volume_now > 0);
+    CHECK(volume_now < 0.75 * volume_error);
+    CHECK(inertia_now < 0.75 * inertia_error);
+    CHECK(filled.centre.norm() < deviation * deviation);
+    spheres = filling.balls.size();
+    volume_error = volume_now;
+    inertia_error = inertia_now;
+  }
+}
+
+TEST_CASE("A filled rock has the mass, centre and inertia of its surface, whatever its spheres are") {
+  RockScene scene;
+  scene.shape = BlockScene{.edge = 0.8, .mass = {}, .cut = 0.25, .deviation = 0.1};
+  scene.at = {1, 2, 3};
+  const double density = 2600;
+  const BuiltRock built = build_rock("block", scene, density);
+  // A cube less eight corner tetrahedra, as in the test of the block's mass properties.
+  const double edge = 0.8, leg = 0.25 * edge, tetrahedron = leg * leg * leg / 6, h = edge / 2;
+  const double mass = density * (edge * edge * edge - 8 * tetrahedron);
+  const double second =
+      density * (std::pow(edge, 5) / 12 -
+                 8 * (tetrahedron * h * h - h * tetrahedron * leg / 2 + std::pow(leg, 5) / 60));
+  CHECK(built.rock.mass == Approx(mass).epsilon(1e-12));
+  CHECK(length(built.rock.centre - Triple<double>{1, 2, 3}) == 0);
+  for (double moment : {built.rock.moments.x, built.rock.moments.y, built.rock.moments.z})
+    CHECK(moment == Approx(2 * second).epsilon(1e-12));
 }
 
 TEST_CASE("A surface with a hole is refused as a rock") {
