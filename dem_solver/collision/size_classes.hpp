@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <span>
 #include <vector>
 
 #include "dem_solver/collision/grid.hpp"
@@ -46,29 +48,39 @@ class SizeClasses {
     const Index centre_number = own.grid.number(centre);
     for (Index j : own.members.in(centre_number))
       if (j > i) found(j);
-    visit_block(own.grid, centre, [&](Index number) {
-      if (number <= centre_number) return;
-      for (Index j : own.members.in(number)) found(j);
+    visit_rows(own.grid, centre, [&](Index first, Index last) {
+      for (Index j : members_between(own, std::max(first, centre_number + 1), last)) found(j);
     });
   }
 
   template <class Found>
   static void visit_all(const Class& other, const Row& position, Found&& found) {
-    visit_block(other.grid, other.grid.cell(position), [&](Index number) {
-      for (Index j : other.members.in(number)) found(j);
+    visit_rows(other.grid, other.grid.cell(position), [&](Index first, Index last) {
+      for (Index j : members_between(other, first, last)) found(j);
     });
   }
 
-  /// The 27 cells around a cell, as far as they are in the grid, in the order of their numbers.
+  /// Members of all cells from one number to another; none where the last comes before the first.
+  static std::span<const Index> members_between(const Class& of, Index first, Index last) noexcept {
+    const Index begin = of.members.first[first], end = of.members.first[std::max(first, last + 1)];
+    return {of.members.points.data() + begin, of.members.points.data() + end};
+  }
+
+  /// The 27 cells around a cell, as far as they are in the grid, in the order of their numbers: nine rows of
+  /// neighbouring numbers, whose members stand one after the other.
   template <class Visit>
-  static void visit_block(const CellGrid& grid, const CellGrid::Cell& centre, Visit&& visit) {
+  static void visit_rows(const CellGrid& grid, const CellGrid::Cell& centre, Visit&& visit) {
     const auto [a, b, c] = grid.axes();
     const auto low = [&](int k) { return centre[k] > 0 ? centre[k] - 1 : 0; };
     const auto high = [&](int k) { return centre[k] + 1 < grid.counts()[k] ? centre[k] + 1 : centre[k]; };
+    const Index along = high(c) - low(c);
     CellGrid::Cell cell{};
+    cell[c] = low(c);
     for (cell[a] = low(a); cell[a] <= high(a); ++cell[a])
-      for (cell[b] = low(b); cell[b] <= high(b); ++cell[b])
-        for (cell[c] = low(c); cell[c] <= high(c); ++cell[c]) visit(grid.number(cell));
+      for (cell[b] = low(b); cell[b] <= high(b); ++cell[b]) {
+        const Index first = grid.number(cell);
+        visit(first, first + along);
+      }
   }
 
   double skin_ = 0;
