@@ -63,8 +63,8 @@ void FeatureGrid::near(const Row& point, double reach, std::vector<Index>& found
       if (overlaps) found.push_back(k);
     }
   });
-  std::ranges::sort(found);
-  found.erase(std::ranges::unique(found).begin(), found.end());
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
 }
 
 }  // namespace talus::dem

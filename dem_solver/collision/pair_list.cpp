@@ -96,10 +96,12 @@ SlotMove find_slot(const PairList& list, const OldContact& old) {
     const Index owner = reversed ? old.second : old.first, partner = reversed ? old.first : old.second;
     for (Index slot = list.first()[owner]; slot < list.first()[owner + 1]; ++slot)
       if (other[slot] == partner) return {old.slot, slot, reversed};
-    for (const PairList::WidePair& pair :
-         std::ranges::equal_range(wide, owner, {}, &PairList::WidePair::first))
-      if (pair.second == partner)
-        return {old.slot, static_cast<Index>(other.size() + (&pair - wide.data())), reversed};
+    auto pair = std::lower_bound(wide.begin(), wide.end(), owner,
+                                 [](const PairList::WidePair& p, Index sphere) { return p.first < sphere; });
+    for (; pair != wide.end() && pair->first == owner; ++pair)
+      if (pair->second == partner)
+        return {old.slot, static_cast<Index>(other.size()) + static_cast<Index>(pair - wide.begin()),
+                reversed};
   }
   return {old.slot, -1, false};
 }

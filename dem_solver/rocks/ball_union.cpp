@@ -126,7 +126,7 @@ std::vector<double> critical_heights(std::span<const Ball> balls) {
     }
   }
   std::ranges::sort(heights);
-  heights.erase(std::ranges::unique(heights).begin(), heights.end());
+  heights.erase(std::unique(heights.begin(), heights.end()), heights.end());
   return heights;
 }
 

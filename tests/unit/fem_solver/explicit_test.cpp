@@ -88,7 +88,8 @@ TEST_CASE(
 
 TEST_CASE(
     "an undamped elastic net at 0.9 of its limit keeps its energy within 0.1 % of the largest kinetic "
-    "energy") {
+    "energy",
+    "[long]") {
   Model model = tests::net<CableBatch>(wire, 0.1, 9);
   const double limit = Run::limit(model);
   Run run(std::move(model), 0.9 * limit);

@@ -144,7 +144,8 @@ TEST_CASE("openings are those of the data sheets") {
 
 TEST_CASE(
     "a sphere slightly smaller than the opening passes square, rhombic and hexagonal nets anywhere, a larger "
-    "one nowhere") {
+    "one nowhere",
+    "[long]") {
   CHECK(count_passing(lattice(square), 0.99 * mesh::opening(square), 1000) == 1000);
   CHECK(count_passing(lattice(square), 1.01 * mesh::opening(square), 1000) == 0);
   CHECK(count_passing(lattice(rhombic), 0.99 * mesh::opening(rhombic), 1000) == 1000);
@@ -153,8 +154,8 @@ TEST_CASE(
   CHECK(count_passing(lattice(hexagonal), 1.01 * mesh::opening(hexagonal), 1000) == 0);
 }
 
-TEST_CASE(
-    "no sphere larger than a ring net's opening passes it, and one slightly smaller passes every ring") {
+TEST_CASE("no sphere larger than a ring net's opening passes it, and one slightly smaller passes every ring",
+          "[long]") {
   const double opening = mesh::opening(rings);
   CHECK(count_passing(lattice(rings), 1.01 * opening, 1000) == 0);
   // Smaller spheres can come to rest between four rings; over a ring they pass.
