@@ -70,6 +70,7 @@ struct Declaration {
       false;  ///< the scene allows a step above a stability limit; else the coupler refuses it before time 0
   bool free_velocity = false;  ///< structure: it can fill StructureFields::free_velocity; particles: they
                                ///< need it
+  bool checkpoints = false;    ///< it answers write_checkpoint and read_checkpoint
   std::vector<StepLimit> limits{};
   std::vector<Effect> effects{};
   core::OutputDescription outputs{};

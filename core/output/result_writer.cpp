@@ -14,6 +14,7 @@
 #include "core/output/field_index.hpp"
 #include "core/output/field_store.hpp"
 #include "core/output/peaks.hpp"
+#include "core/output/table.hpp"
 
 namespace talus::core {
 namespace {
@@ -152,6 +153,27 @@ struct ResultWriter::Content {
     }
   }
 
+  /// The row that stands in probe_row and, without its balance, in energy_row.
+  void append_row(double time) {
+    peaks.add(time, std::span(probe_row).subspan(1));
+    const auto row = balance.add(std::span(energy_row).subspan(1));
+    energy_row.push_back(row.error);
+    energy_row.push_back(row.error_relative);
+    probe_file.write_row(probe_row);
+    energy_file.write_row(energy_row);
+    last_time = time;
+    ++rows;
+  }
+
+  Table earlier_table(const std::filesystem::path& file, const std::vector<std::string>& names) const {
+    Table table = read_table(file);
+    if (table.names == names) return table;
+    throw ConfigError(
+        fmt::format("{} has other columns than this run writes; restart without it, or with the "
+                    "probes of the earlier scene",
+                    file.string()));
+  }
+
   void write_group(const OutputSource& source, std::size_t local, std::size_t group, double time) {
     const auto& shape = description.groups[group];
     const auto nodes = static_cast<std::size_t>(shape.nodes),
@@ -223,16 +245,27 @@ void ResultWriter::write_row(double time) {
   c.fill_rows(time);
   c.check_row(c.probe_row, time, c.description.probes);
   c.check_row(c.energy_row, time, c.description.ledger);
-  c.peaks.add(time, std::span(c.probe_row).subspan(1));
-  const auto balance = c.balance.add(std::span(c.energy_row).subspan(1));
-  c.energy_row.push_back(balance.error);
-  c.energy_row.push_back(balance.error_relative);
-  c.probe_file.write_row(c.probe_row);
-  c.energy_file.write_row(c.energy_row);
+  c.append_row(time);
   if (!c.first_time) c.first_time = time;
-  c.last_time = time;
-  ++c.rows;
   if (Clock::now() - c.summary_written > summary_pause) c.write_summary(RunStatus::running, {});
+}
+
+std::int64_t ResultWriter::take_over(const std::filesystem::path& earlier, double before) {
+  auto& c = *content_;
+  const Table probes = c.earlier_table(earlier / "probes.csv", columns(c.description.probes));
+  const Table energy =
+      c.earlier_table(earlier / "energy.csv", columns(c.description.ledger, {"error_J", "error_relative"}));
+  const auto row_of = [](const Table& table, std::size_t row, std::vector<double>& values) {
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] = table.columns[i][row];
+  };
+  const std::size_t rows = std::min(probes.rows(), energy.rows());
+  for (std::size_t row = 0; row < rows && probes.columns[0][row] < before; ++row) {
+    c.energy_row.resize(1 + c.description.ledger.size());
+    row_of(probes, row, c.probe_row);
+    row_of(energy, row, c.energy_row);
+    c.append_row(c.probe_row.front());
+  }
+  return c.rows;
 }
 
 void ResultWriter::write_fields(double time) {

@@ -47,6 +47,10 @@ class ResultWriter {
   /// Asks the sources for their probes and ledger lines and appends a row to probes.csv and energy.csv.
   /// @pre times increase. @throws NumericalError where a value is not finite; the row is then not written.
   void write_row(double time);
+  /// Begins with the rows of an earlier result up to, not including, `before` (s): a restarted run then ends
+  /// with the tables, peaks and energy errors of a run in one piece. @pre no row is written yet
+  /// @returns how many rows. @throws ConfigError where the earlier result has other columns
+  std::int64_t take_over(const std::filesystem::path& earlier, double before);
   /// Appends a frame of all groups. @throws NumericalError where a value is not finite; the frame then does
   /// not count.
   void write_fields(double time);

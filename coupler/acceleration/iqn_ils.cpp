@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string>
 #include <utility>
+
+#include "core/output/checkpoint.hpp"
 
 namespace talus::coupler {
 namespace {
@@ -56,9 +59,10 @@ std::vector<double> IqnIls::project(std::span<const double> residual) const {
 
 void IqnIls::add_column(std::span<const double> residual, std::span<const double> made,
                         const std::vector<double>& products) {
-  Column column{.residual_change = std::vector<double>(residual.size()),
-                .made_change = std::vector<double>(residual.size()),
-                .window = window_};
+  Column column = std::exchange(spare_, {});
+  column.window = window_;
+  column.residual_change.resize(residual.size());
+  column.made_change.resize(residual.size());
   for (std::size_t i = 0; i < residual.size(); ++i) {
     column.residual_change[i] = residual[i] - residual_[i];
     column.made_change[i] = made[i] - made_[i];
@@ -74,6 +78,7 @@ void IqnIls::drop_oldest_column() {
   for (std::size_t i = 1; i < count; ++i) {
     for (std::size_t j = 1; j < count; ++j) gram(i - 1, j - 1) = gram(i, j);
   }
+  spare_ = std::move(columns_.front());
   columns_.erase(columns_.begin());
   if (!products_.empty()) products_.erase(products_.begin());
 }
@@ -111,7 +116,8 @@ std::vector<double> IqnIls::coefficients() const {
 }
 
 void IqnIls::update(std::span<double> x, std::span<const double> made) {
-  std::vector<double> residual(x.size());
+  std::vector<double>& residual = new_residual_;
+  residual.resize(x.size());
   for (std::size_t i = 0; i < x.size(); ++i) residual[i] = made[i] - x[i];
   if (!first_ && columns_.size() == settings_.most_columns) drop_oldest_column();
   std::vector<double> products = project(residual);
@@ -132,9 +138,28 @@ void IqnIls::update(std::span<double> x, std::span<const double> made) {
       }
     });
   }
-  residual_ = std::move(residual);
+  std::swap(residual_, new_residual_);
   made_.assign(made.begin(), made.end());
   first_ = false;
+}
+
+void IqnIls::archive(core::StateArchive& archive) {
+  auto count = static_cast<std::int64_t>(columns_.size());
+  auto size = static_cast<std::int64_t>(columns_.empty() ? 0 : columns_.front().made_change.size());
+  archive.count("columns", count);
+  archive.count("column_size", size);
+  archive.count("acceleration_window", window_);
+  columns_.resize(static_cast<std::size_t>(count));
+  for (std::size_t j = 0; j < columns_.size(); ++j) {
+    Column& column = columns_[j];
+    const std::string name = "column_" + std::to_string(j);
+    column.residual_change.resize(static_cast<std::size_t>(size));
+    column.made_change.resize(static_cast<std::size_t>(size));
+    archive.values(name + "_residual", column.residual_change);
+    archive.values(name + "_made", column.made_change);
+    archive.count(name + "_window", column.window);
+  }
+  archive.values("gram", gram_);
 }
 
 }  // namespace talus::coupler

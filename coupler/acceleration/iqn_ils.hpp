@@ -5,6 +5,10 @@
 #include <span>
 #include <vector>
 
+namespace talus::core {
+class StateArchive;
+}
+
 namespace talus::coupler {
 
 /// Interface quasi-Newton with an inverse least-squares model [Degroote, Bathe, Vierendeels 2009, Comput.
@@ -41,6 +45,8 @@ class IqnIls {
   void update(std::span<double> x, std::span<const double> made);
   void end_window(std::span<const double>, std::span<const double>) {}
   std::size_t columns() const { return columns_.size(); }
+  /// The columns and their products.
+  void archive(core::StateArchive& archive);
 
  private:
   struct Column {
@@ -63,6 +69,9 @@ class IqnIls {
   std::vector<double> gram_;             ///< rows of most_columns values
   std::vector<double> products_;         ///< b of the last iteration
   std::vector<double> residual_, made_;  ///< of the last iteration
+  // Memory of large vectors comes from the system page by page; what was used once is used again.
+  Column spare_;
+  std::vector<double> new_residual_;
 };
 
 }  // namespace talus::coupler

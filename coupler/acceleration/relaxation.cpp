@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "core/output/checkpoint.hpp"
+
 namespace talus::coupler {
 namespace {
 
@@ -29,6 +31,12 @@ void Aitken::update(std::span<double> x, std::span<const double> made) {
     residual_[i] = made[i] - x[i];
     x[i] += factor_ * residual_[i];
   }
+}
+
+void Aitken::archive(core::StateArchive& archive) {
+  std::vector<double> factor{factor_};
+  archive.values("relaxation", factor);
+  factor_ = factor.front();
 }
 
 }  // namespace talus::coupler

@@ -13,6 +13,11 @@
 ///     void update(std::span<double> x, std::span<const double> made);   x becomes the next iterate
 ///     void end_window(std::span<const double> x, std::span<const double> made);   the window has converged
 ///     with these
+///     void archive(core::StateArchive& archive);   writes or reads what later windows depend on
+namespace talus::core {
+class StateArchive;
+}
+
 namespace talus::coupler {
 
 /// x' = H(x): the plain Gauss-Seidel (or Jacobi) iteration.
@@ -22,6 +27,7 @@ struct NoAcceleration {
     std::copy(made.begin(), made.end(), x.begin());
   }
   void end_window(std::span<const double>, std::span<const double>) {}
+  void archive(core::StateArchive&) {}
 };
 
 /// x' = x + w r with a constant w.
@@ -32,6 +38,7 @@ struct FixedRelaxation {
     for (std::size_t i = 0; i < x.size(); ++i) x[i] += factor * (made[i] - x[i]);
   }
   void end_window(std::span<const double>, std::span<const double>) {}
+  void archive(core::StateArchive&) {}
 };
 
 /// Aitken's dynamic relaxation for vectors [Irons, Tuck 1969, Int. J. Numer. Meth. Engng 1, 275; Küttler,
@@ -55,6 +62,7 @@ class Aitken {
   void update(std::span<double> x, std::span<const double> made);
   void end_window(std::span<const double>, std::span<const double>) {}
   double factor() const { return factor_; }
+  void archive(core::StateArchive& archive);
 
  private:
   double next_factor(std::span<const double> x, std::span<const double> made) const;

@@ -23,6 +23,10 @@ void add_run(CLI::App& app, Chosen& chosen) {
   const auto request = std::make_shared<RunRequest>();
   command->add_option("SCENE", request->scene, "the scene, a YAML file")->required();
   core::add_run_options(*command, request->options);
+  command->add_option(
+      "--restart", request->restart,
+      "go on from this checkpoint.h5; the result goes to results/<scene>_restarted or --out, with "
+      "the rows before the checkpoint");
   command->callback([request, &chosen] {
     chosen.run = [request] {
       core::apply(request->options);

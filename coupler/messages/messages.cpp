@@ -176,6 +176,7 @@ Bytes encode(const Declaration& declaration) {
                {"step", declaration.step},
                {"insists_on_step", declaration.insists_on_step},
                {"free_velocity", declaration.free_velocity},
+               {"checkpoints", declaration.checkpoints},
                {"limits", limits},
                {"effects", effects},
                {"outputs", to_json(declaration.outputs)}});
@@ -188,6 +189,7 @@ Declaration decode_declaration(ByteView bytes) {
                             .step = j.at("step"),
                             .insists_on_step = j.at("insists_on_step"),
                             .free_velocity = j.at("free_velocity"),
+                            .checkpoints = j.at("checkpoints"),
                             .limits = {},
                             .effects = {},
                             .outputs = outputs_from(j.at("outputs"))};

@@ -15,6 +15,11 @@ core::ProgressState Reporter::state(std::int64_t window) const {
           .limit = plan_.limited_by};
 }
 
+void Reporter::begin_at(std::int64_t window) {
+  plan_.rows.done(window - 1);
+  if (plan_.frames) plan_.frames->done(window - 1);
+}
+
 void Reporter::at(std::int64_t window) {
   const bool frame = plan_.frames && plan_.frames->due(window);
   if (frame || plan_.rows.due(window)) write(window, frame);

@@ -18,6 +18,8 @@ class Reporter {
   };
   Reporter(Session& session, core::ResultWriter& results, Plan plan, core::ProgressStyle style);
 
+  /// A run that begins with this window has passed the times before it.
+  void begin_at(std::int64_t window);
   /// The state at the start of window `n`, where it is due.
   void at(std::int64_t window);
   /// The state the run ends with.

@@ -8,6 +8,7 @@
 #include "core/output/result_writer.hpp"
 #include "core/program/log.hpp"
 #include "core/program/stop.hpp"
+#include "coupler/run/checkpoints.hpp"
 #include "coupler/run/choose_scheme.hpp"
 #include "coupler/run/prepared_run.hpp"
 #include "coupler/run/reporter.hpp"
@@ -33,20 +34,37 @@ Reporter::Plan plan_of(const PreparedRun& run) {
   return plan;
 }
 
-/// Windows from the first to the last, or to a request to stop between two of them.
-template <class Compute>
-RunStatus run_windows(Reporter& reporter, const Span& span, Compute&& compute) {
-  for (std::int64_t n = 0; n < span.windows(); ++n) {
-    reporter.at(n);
-    if (core::stop_requested()) {
-      reporter.last(n);
-      return RunStatus::interrupted;
+/// A run through time: where it begins, what it writes.
+struct Course {
+  Span span;
+  Reporter& reporter;
+  std::optional<RestartPoint>& restart;
+  std::filesystem::path folder;
+  std::optional<double> checkpoint_every;
+
+  /// Windows from the first to the last, or to a request to stop between two of them.
+  /// @param compute one window; `start` after the first report of a run from time 0
+  template <class Start, class Compute>
+  RunStatus run(Session& session, const ArchiveOwnState& archive, Start&& start, Compute&& compute) {
+    Checkpoints checkpoints(session, {.folder = folder, .every = checkpoint_every, .span = span}, archive);
+    if (restart) restart->restore(session, folder, archive);
+    const std::int64_t first = restart ? restart->window() : 0;
+    reporter.begin_at(first);
+    for (std::int64_t n = first; n < span.windows(); ++n) {
+      reporter.at(n);
+      if (n == 0) start();
+      checkpoints.at(n);
+      if (core::stop_requested()) {
+        checkpoints.write(n);
+        reporter.last(n);
+        return RunStatus::interrupted;
+      }
+      compute(Window{.index = n, .length = span.window_length});
     }
-    compute(Window{.index = n, .length = span.window_length});
+    reporter.last(span.windows());
+    return RunStatus::finished;
   }
-  reporter.last(span.windows());
-  return RunStatus::finished;
-}
+};
 
 /// The sides of a run and their output, put together once everything about them is known.
 struct Assembled {
@@ -63,9 +81,34 @@ struct Assembled {
   std::vector<const core::OutputSource*> sources;
 };
 
+std::filesystem::path folder_of(const RunRequest& request) {
+  std::filesystem::path folder = request.options.folder_for(request.scene);
+  if (request.restart.empty()) return folder;
+  if (request.options.out.empty()) folder += "_restarted";
+  std::error_code absent;
+  if (!std::filesystem::equivalent(folder, request.restart.parent_path(), absent)) return folder;
+  throw core::ConfigError("--out is the folder of the checkpoint, which the new result would replace");
+}
+
+/// Before time 0, since nobody wants to hear it when the power fails.
+void refuse_missing_checkpoints(const PreparedRun& run, const RunRequest& request) {
+  const std::string unable = without_checkpoints(*run.session);
+  if (unable.empty() || (!run.scene.coupling.checkpoint_every && request.restart.empty())) return;
+  throw core::ConfigError(fmt::format("{} neither writes nor reads checkpoints, but {} wants them", unable,
+                                      request.restart.empty() ? "coupling.checkpoint_every" : "--restart"));
+}
+
+/// The rows before the checkpoint come from the result it was written in.
+void continue_result(core::ResultWriter& results, const RunRequest& request, double time) {
+  const auto earlier = request.restart.has_parent_path() ? request.restart.parent_path() : ".";
+  const std::int64_t rows = results.take_over(earlier, time);
+  results.summary()["restarted"] = {
+      {"from", request.restart.string()}, {"time_s", time}, {"rows_taken_over", rows}};
+}
+
 core::ResultWriter::Options result_options(const PreparedRun& run, const RunRequest& request,
                                            const Reporter::Plan& plan) {
-  return {.folder = request.options.folder_for(request.scene),
+  return {.folder = folder_of(request),
           .existing = request.options.existing,
           .title = run.file.title(),
           .program = "talus " + core::version(),
@@ -84,21 +127,30 @@ double mean_of(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-RunStatus compute(PreparedRun& run, Assembled& parts, Reporter& reporter, const Span& span,
-                  nlohmann::json& summary) {
+template <class Scheme>
+RunStatus compute_coupled(Session& session, Exchange& exchange, Scheme& scheme, Course& course) {
+  return course.run(
+      session,
+      [&](core::StateArchive& archive) {
+        exchange.archive(archive);
+        if constexpr (requires { scheme.archive(archive); }) scheme.archive(archive);
+      },
+      [&] { exchange.start(); }, [&](const Window& window) { scheme.compute(exchange, window); });
+}
+
+RunStatus compute(PreparedRun& run, Assembled& parts, Course& course, nlohmann::json& summary) {
   RunStatus status{};
   if (parts.exchange) {
     std::visit(SchemeChoice(*parts.exchange, mean_of(run.interface->boundary_masses),
                             [&](auto& scheme) {
-                              status = run_windows(reporter, span, [&](const Window& window) {
-                                scheme.compute(*parts.exchange, window);
-                              });
+                              status = compute_coupled(*run.session, *parts.exchange, scheme, course);
                               add_tally(summary, scheme);
                             }),
                run.scene.coupling.scheme);
   } else {
-    status =
-        run_windows(reporter, span, [&](const Window& window) { Uncoupled{}.compute(*run.session, window); });
+    status = course.run(
+        *run.session, [](core::StateArchive&) {}, [] {},
+        [&](const Window& window) { Uncoupled{}.compute(*run.session, window); });
   }
   run.session->finish();
   return status;
@@ -106,15 +158,25 @@ RunStatus compute(PreparedRun& run, Assembled& parts, Reporter& reporter, const 
 
 core::ExitCode run_prepared(PreparedRun& run, const RunRequest& request) {
   refuse_unstable_steps(run.limits, request.scene);
+  refuse_missing_checkpoints(run, request);
   Reporter::Plan plan = plan_of(run);
+  std::optional<RestartPoint> restart;
+  if (!request.restart.empty()) restart.emplace(request.restart, plan.span);
   Assembled parts(run);
   core::ResultWriter results(result_options(run, request, plan), parts.sources);
   core::open_log_file(results.folder() / "log.txt");
   for (const auto& warning : warnings_of(run.limits)) core::log_warning(warning);
   add_facts(results.summary(), run);
+  if (restart)
+    continue_result(results, request, static_cast<double>(restart->window()) * plan.span.window_length);
   try {
     Reporter reporter(*run.session, results, plan, request.options.progress);
-    const RunStatus status = compute(run, parts, reporter, plan.span, results.summary());
+    Course course{.span = plan.span,
+                  .reporter = reporter,
+                  .restart = restart,
+                  .folder = results.folder(),
+                  .checkpoint_every = run.scene.coupling.checkpoint_every};
+    const RunStatus status = compute(run, parts, course, results.summary());
     results.finish(status);
     core::log_info(closing_words(results.folder()));
     return status == RunStatus::finished ? core::ExitCode::success : core::ExitCode::interrupted;

@@ -9,6 +9,7 @@ namespace talus::coupler {
 
 struct RunRequest {
   std::filesystem::path scene;
+  std::filesystem::path restart;  ///< a checkpoint to go on from; empty: from time 0
   core::RunOptions options;
 };
 

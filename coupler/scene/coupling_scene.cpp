@@ -79,6 +79,11 @@ void describe(core::Fields& fields, CouplingScene& coupling) {
   fields.with_default(
       "join_timeout", coupling.join_timeout,
       {.unit = "s", .range = core::positive, .help = "longest time a solver may take to start and join"});
+  fields.optional("checkpoint_every", coupling.checkpoint_every,
+                  {.unit = "s",
+                   .range = core::positive,
+                   .help = "wall time between two writings of checkpoint.h5; absent: only an interrupted run "
+                           "leaves one"});
   fields.one_of(coupling.scheme,
                 {{"serial_explicit", "particles, then structure, once a window (the default)"},
                  {"parallel_explicit", "both at the same time, once a window"},

@@ -69,7 +69,9 @@ struct CouplingScene {
   std::optional<double> window;  ///< s; absent: time.step
   double timeout = 300;          ///< s
   double join_timeout = 60;      ///< s
-  SchemeScene scheme;            ///< absent: serial_explicit
+  /// s of wall time between checkpoints; absent: one where the run is interrupted
+  std::optional<double> checkpoint_every;
+  SchemeScene scheme;  ///< absent: serial_explicit
 
   Order order() const;
 };

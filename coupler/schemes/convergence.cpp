@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/errors.hpp"
+#include "core/output/checkpoint.hpp"
 
 namespace talus::coupler {
 namespace {
@@ -45,6 +46,15 @@ void fail_not_converged(const Window& window, int iterations, const Convergence:
        .step = window.index,
        .time = window.start(),
        .value = verdict.ratio});
+}
+
+void IterationTally::archive(core::StateArchive& archive) {
+  std::int64_t worst = most;
+  archive.count("iterated_windows", windows);
+  archive.count("iterations", iterations);
+  archive.count("windows_not_converged", not_converged);
+  archive.count("most_iterations", worst);
+  most = static_cast<int>(worst);
 }
 
 }  // namespace talus::coupler

@@ -32,6 +32,7 @@ const char* name_of(FieldName field);
 struct IterationTally {
   std::int64_t windows = 0, iterations = 0, not_converged = 0;
   int most = 0;  ///< iterations of the worst window
+  void archive(core::StateArchive& archive);
 };
 
 /// @throws core::NumericalError naming the window, the field and how far it is from converged

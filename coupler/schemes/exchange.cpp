@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/output/checkpoint.hpp"
 #include "coupler/session/introduction.hpp"
 
 namespace talus::coupler {
@@ -120,6 +121,28 @@ void Exchange::accept_window() {
   structure_work_.add(structure_.force, structure_start_, structure_.displacement);
   mapping_.to_boundary(structure_.displacement, particles_.displacement);
   mapping_.to_boundary(structure_.velocity, particles_.velocity);
+}
+
+void Exchange::archive(core::StateArchive& archive) {
+  const auto array = [&archive](const std::string& name, std::span<double> values) {
+    std::vector<double> copy(values.begin(), values.end());
+    archive.values(name, copy);
+    std::copy(copy.begin(), copy.end(), values.begin());
+  };
+  for (Side* side : {&structure_, &particles_}) {
+    const std::string name = name_of(side->peer.role());
+    array(name + "_force", side->force);
+    array(name + "_displacement", side->displacement);
+    array(name + "_velocity", side->velocity);
+    array(name + "_end_displacement", side->end_displacement);
+    array(name + "_end_velocity", side->end_velocity);
+    array(name + "_free_velocity", side->free_velocity);
+  }
+  structure_work_.archive(archive, "work_on_structure");
+  boundary_work_.archive(archive, "work_on_boundary");
+  std::int64_t touched = touched_ ? 1 : 0;
+  archive.count("touched", touched);
+  touched_ = touched != 0;
 }
 
 }  // namespace talus::coupler

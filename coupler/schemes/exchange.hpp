@@ -71,6 +71,8 @@ class Exchange {
   /// Work since the start, J.
   double work_on_structure() const { return structure_work_.joules(); }
   double work_on_boundary() const { return one_work_ ? work_on_structure() : boundary_work_.joules(); }
+  /// The arrays of both sides and the works: all that later windows depend on.
+  void archive(core::StateArchive& archive);
   /// Whether the particles' last forces are not all zero.
   bool touching() const;
 

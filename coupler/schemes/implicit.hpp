@@ -40,6 +40,11 @@ class Implicit {
     count(iteration, verdict.converged());
   }
   const IterationTally& tally() const { return tally_; }
+  /// What later windows depend on: the unknown is predicted anew in each window, the acceleration remembers.
+  void archive(core::StateArchive& archive) {
+    acceleration_.archive(archive);
+    tally_.archive(archive);
+  }
 
  private:
   void correct(const Exchange& exchange) {

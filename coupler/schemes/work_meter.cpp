@@ -4,6 +4,9 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <vector>
+
+#include "core/output/checkpoint.hpp"
 
 namespace talus::coupler {
 namespace {
@@ -56,6 +59,16 @@ void WorkMeter::end(std::span<const double> force, std::span<const double> displ
 void WorkMeter::add(std::span<const double> mean_force, std::span<const double> start,
                     std::span<const double> end) {
   for (std::size_t i = 0; i < mean_force.size(); ++i) joules_ += mean_force[i] * (end[i] - start[i]);
+}
+
+void WorkMeter::archive(core::StateArchive& archive, const std::string& name) {
+  std::vector<double> works{pending_, joules_};
+  std::int64_t begun = begun_ ? 1 : 0;
+  archive.values(name, works);
+  archive.count(name + "_begun", begun);
+  pending_ = works[0];
+  joules_ = works[1];
+  begun_ = begun != 0;
 }
 
 }  // namespace talus::coupler

@@ -1,6 +1,11 @@
 #pragma once
 
 #include <span>
+#include <string>
+
+namespace talus::core {
+class StateArchive;
+}
 
 namespace talus::coupler {
 
@@ -42,6 +47,8 @@ class WorkMeter {
   /// Mean forces whose path is known at once.
   void add(std::span<const double> mean_force, std::span<const double> start, std::span<const double> end);
   double joules() const { return joules_; }
+  /// Writes or reads the whole state.
+  void archive(core::StateArchive& archive, const std::string& name);
 
  private:
   ForceMeaning meaning_;

@@ -96,6 +96,7 @@ coupler::Declaration declaration(Structure& structure, const StructuralScene& sc
       .program = "fem_solver " + core::version(),
       .step = structure.step(),
       .free_velocity = !structure.integrator().free_velocity(0, structure.step()).empty(),
+      .checkpoints = true,
       .limits = {},
       .effects = {},
       .outputs = structure.output().description()};

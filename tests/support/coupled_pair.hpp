@@ -27,6 +27,7 @@ class CoupledPair {
   }
   ~CoupledPair() { session_.abort("the test is over"); }
 
+  coupler::Session& session() { return session_; }
   coupler::Exchange& exchange() { return *exchange_; }
   /// z of the structure's node.
   double displacement() { return exchange_->structure().displacement[2]; }

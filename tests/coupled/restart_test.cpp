@@ -1,0 +1,96 @@
+#include <signal.h>
+
+#include <catch2/catch.hpp>
+#include <chrono>
+#include <fstream>
+#include <random>
+#include <thread>
+
+#include "tests/support/program.hpp"
+
+using namespace talus;
+using Catch::Matchers::Contains;
+
+namespace {
+
+/// A scene of the examples, run by `talus run` with checkpoints as often as it can write them.
+class Example {
+ public:
+  explicit Example(const std::string& name, const std::string& window) {
+    std::ofstream(scene_) << "extends: " << TALUS_SOURCE_DIR << "/configs/examples/" << name << ".yaml\n"
+                          << "time: {end: 0.3 s}\n"
+                          << "output: {fields_every: 0.1 s, every: 2 ms}\n"
+                          << "coupling: {window: " << window << ", checkpoint_every: 1 us}\n";
+  }
+  std::filesystem::path folder(const std::string& name) const { return folder_.path() / name; }
+
+  std::unique_ptr<test::Program> start(const std::string& name, const std::string& restart = {}) const {
+    std::vector<std::string> command{TALUS_BINARY_DIR "/bin/talus", "run",    scene_.string(), "--out",
+                                     folder(name).string(),         "--quiet"};
+    if (!restart.empty())
+      command.insert(command.end(), {"--restart", (folder(restart) / "checkpoint.h5").string()});
+    return std::make_unique<test::Program>(command, folder(name).string() + ".txt");
+  }
+  void run(const std::string& name, const std::string& restart = {}) const {
+    const auto end = start(name, restart)->wait(limit);
+    INFO(end.output);
+    REQUIRE(end.code == 0);
+  }
+  /// Starts a run and ends it by a signal a while after its first checkpoint.
+  void stop(const std::string& name, int signal, std::chrono::milliseconds later) const {
+    const auto program = start(name);
+    const auto deadline = std::chrono::steady_clock::now() + limit;
+    while (!std::filesystem::exists(folder(name) / "checkpoint.h5")) {
+      REQUIRE(std::chrono::steady_clock::now() < deadline);
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    std::this_thread::sleep_for(later);
+    program->signal(signal);
+    program->wait(limit);
+  }
+  void check_same_tables(const std::string& name, const std::string& other) const {
+    for (const char* table : {"probes.csv", "energy.csv"}) {
+      INFO(table);
+      CHECK(test::text_of(folder(name) / table) == test::text_of(folder(other) / table));
+    }
+  }
+
+ private:
+  static constexpr std::chrono::seconds limit{100};
+  test::TemporaryFolder folder_;
+  std::filesystem::path scene_ = folder_.path() / "scene.yaml";
+};
+
+}  // namespace
+
+TEST_CASE(
+    "a run killed at a random moment and restarted from its last checkpoint has the tables of a whole run") {
+  const auto [name, window] =
+      GENERATE(std::pair("hanging_net", "1 ms"), std::pair("hanging_net_implicit", "4 ms"));
+  const Example example(name, window);
+  example.run("whole");
+  std::mt19937 random(11);
+  for (int k = 0; k < 2; ++k) {
+    const std::string stopped = "stopped" + std::to_string(k), restarted = "restarted" + std::to_string(k);
+    example.stop(stopped, SIGKILL, std::chrono::milliseconds(random() % 200));
+    example.run(restarted, stopped);
+    example.check_same_tables(restarted, "whole");
+  }
+}
+
+TEST_CASE("Ctrl-C leaves a checkpoint, and the restarted run says where it comes from") {
+  const Example example("hanging_net", "1 ms");
+  example.run("whole");
+  example.stop("stopped", SIGINT, std::chrono::milliseconds(30));
+  example.run("restarted", "stopped");
+  example.check_same_tables("restarted", "whole");
+  CHECK_THAT(test::text_of(example.folder("restarted") / "summary.json"), Contains("rows_taken_over"));
+}
+
+TEST_CASE("a restart does not write over the result it comes from") {
+  const Example example("hanging_net", "1 ms");
+  example.stop("stopped", SIGINT, std::chrono::milliseconds(0));
+  const auto end = example.start("stopped", "stopped")->wait();
+  CHECK(end.code == 2);
+  CHECK_THAT(end.output, Contains("--out is the folder of the checkpoint"));
+}
