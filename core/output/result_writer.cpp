@@ -44,6 +44,8 @@ const char* name_of(LedgerKind kind) {
       return "dissipated";
     case LedgerKind::supplied:
       return "supplied";
+    case LedgerKind::memo:
+      return "memo";
   }
   return "";
 }
