@@ -37,6 +37,7 @@ coupler::Declaration declaration_of(const RunScene& scene, const ParticleRun& ru
   declaration.step = scene.particles.step.value_or(0);
   declaration.insists_on_step = scene.particles.unstable_step == ParticlesScene::UnstableStep::allowed;
   declaration.free_velocity = scene.particles.implicit_contact.has_value() && has_interface;
+  declaration.checkpoints = true;
   declaration.outputs = run.output.description();
   for (const ParticleStepLimit& limit : run.limits)
     declaration.limits.push_back({limit.name, limit.seconds, limit.stability, limit.reason});

@@ -137,7 +137,8 @@ TEST_CASE("A checkpoint of another scene is refused") {
   fewer.spheres.pop_back();
   ParticleSolver other(fewer);
   CHECK_THROWS_WITH(read_checkpoint(other, folder / "state.h5"), Catch::Contains("belongs to another scene"));
-  CHECK_THROWS_WITH(read_checkpoint(other, folder / "none.h5"), Catch::Contains("cannot be read as a checkpoint"));
+  CHECK_THROWS_WITH(read_checkpoint(other, folder / "none.h5"),
+                    Catch::Contains("cannot be read as a checkpoint"));
 }
 
 TEST_CASE("The neighbour list finds every touching pair of sizes 1 to 50") {
