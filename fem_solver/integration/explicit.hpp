@@ -8,6 +8,7 @@
 #include "core/parallel.hpp"
 #include "fem_solver/assembly/assembly.hpp"
 #include "fem_solver/integration/integrator.hpp"
+#include "fem_solver/model/snapshot.hpp"
 
 namespace talus::fem {
 
@@ -66,16 +67,10 @@ class ExplicitSolver final : public Integrator {
   /// The balance at the time of the last force evaluation, one step before the present; before the first
   /// step, at time 0.
   EnergyBalance balance() override;
-  void save() override {
-    saved_ = state_;
-    saved_memory_ = element_memory(model_);
-  }
+  void save() override { saved_.take(state_, model_); }
   void archive(core::StateArchive& archive) override;
   const char* method() const override { return "fem_solver explicit"; }
-  void restore() override {
-    state_ = saved_;
-    restore_element_memory(model_, saved_memory_);
-  }
+  void restore() override { saved_.put_back(state_, model_); }
 
   /// One step from `time` to `time + step` (s).
   /// @throws NumericalError if a velocity stops being finite
@@ -110,8 +105,7 @@ class ExplicitSolver final : public Integrator {
   Assembly& assembly_;
   double longest_step_;
   ExplicitState state_;
-  ExplicitState saved_;
-  std::vector<double> saved_memory_;   ///< of friction, brakes, plasticity
+  Snapshot<ExplicitState> saved_;
   std::vector<double> inverse_mass_;   ///< 1/kg; 0 for a node without mass
   std::vector<double> damping_force_;  ///< N; b K v, only where the scene names stiffness damping
   std::vector<double> free_velocity_;  ///< m/s; only where somebody asks for it

@@ -7,6 +7,7 @@
 #include "fem_solver/integration/external_force.hpp"
 #include "fem_solver/integration/integrator.hpp"
 #include "fem_solver/integration/newton.hpp"
+#include "fem_solver/model/snapshot.hpp"
 
 namespace talus::fem {
 
@@ -44,16 +45,10 @@ class ImplicitSolver final : public Integrator {
   std::span<const double> reactions() const override { return state_.reactions; }
   /// The balance at the present time; works by the trapezoidal rule over each step.
   EnergyBalance balance() override;
-  void save() override {
-    saved_ = state_;
-    saved_memory_ = element_memory(model_);
-  }
+  void save() override { saved_.take(state_, model_); }
   void archive(core::StateArchive& archive) override;
   const char* method() const override { return "fem_solver implicit"; }
-  void restore() override {
-    state_ = saved_;
-    restore_element_memory(model_, saved_memory_);
-  }
+  void restore() override { saved_.put_back(state_, model_); }
 
   struct State {
     std::vector<double> displacement, velocity, acceleration;
@@ -88,8 +83,8 @@ class ImplicitSolver final : public Integrator {
   ImplicitOptions options_;
   double alpha_m_, alpha_f_, gamma_, beta_;
   Newton newton_;
-  State state_, saved_;
-  std::vector<double> saved_memory_;    ///< of friction, brakes, plasticity
+  State state_;
+  Snapshot<State> saved_;
   State before_;                        ///< the start of the step in progress
   std::vector<double> mean_, product_;  ///< velocity inside a step, and stiffness times it
   double force_scale_ = 0;

@@ -7,6 +7,7 @@
 #include "fem_solver/integration/external_force.hpp"
 #include "fem_solver/integration/integrator.hpp"
 #include "fem_solver/integration/newton.hpp"
+#include "fem_solver/model/snapshot.hpp"
 
 namespace talus::fem {
 
@@ -32,16 +33,10 @@ class StaticSolver final : public Integrator {
   std::span<const double> velocity() const override { return velocity_; }
   std::span<const double> reactions() const override { return state_.reactions; }
   EnergyBalance balance() override;
-  void save() override {
-    saved_ = state_;
-    saved_memory_ = element_memory(model_);
-  }
+  void save() override { saved_.take(state_, model_); }
   void archive(core::StateArchive& archive) override;
   const char* method() const override { return "fem_solver static"; }
-  void restore() override {
-    state_ = saved_;
-    restore_element_memory(model_, saved_memory_);
-  }
+  void restore() override { saved_.put_back(state_, model_); }
 
   /// Newton's report of every load step of the last advance.
   const std::vector<NewtonReport>& reports() const { return reports_; }
@@ -63,10 +58,10 @@ class StaticSolver final : public Integrator {
   Assembly& assembly_;
   StaticOptions options_;
   Newton newton_;
-  State state_, saved_;
-  std::vector<double> saved_memory_;  ///< of friction, brakes, plasticity
-  std::vector<double> velocity_;      ///< zero
-  std::vector<double> external_;      ///< N; at the load being solved for
+  State state_;
+  Snapshot<State> saved_;
+  std::vector<double> velocity_;  ///< zero
+  std::vector<double> external_;  ///< N; at the load being solved for
   double force_scale_ = 0;
   std::vector<NewtonReport> reports_;
   std::int64_t steps_ = 0;

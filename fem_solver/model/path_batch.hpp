@@ -30,10 +30,7 @@ class PathBatch {
   const std::vector<std::array<Index, 2>>& cells() const { return segments_; }
   template <class Visit>
   void for_each_incidence(const Visit& visit) const {
-    for (Index e = 0; e < size(); ++e) {
-      visit(segments_[at(e)][0], e, -1);
-      visit(segments_[at(e)][1], e, +1);
-    }
+    for_each_pair_incidence(segments_, visit);
   }
 
   void internal_force(std::span<const double> displacement, std::span<double> slots,
@@ -48,13 +45,9 @@ class PathBatch {
   template <class Sink>
   void stiffness(std::span<const double> displacement, const Sink& sink) const {
     for (Index e = 0; e < size(); ++e) {
-      const auto [near, far] = segments_[at(e)];
       const Vector3 d = chord(displacement, e);
       const Matrix3 K = segment(e).stiffness(d, segment(e).respond(d, kept_[at(e)]));
-      sink(near, near, K);
-      sink(near, far, Matrix3(-K));
-      sink(far, near, Matrix3(-K));
-      sink(far, far, K);
+      spread_pair_block(segments_[at(e)], segments_[at(e)], K, sink);
     }
   }
 

@@ -48,23 +48,14 @@ class RopeLine {
   Differences differences(std::span<const double> values) const noexcept { return {*this, values}; }
   Chords chords(std::span<const double> displacement) const noexcept { return {differences(displacement)}; }
 
-  /// Every segment pulls its farther node with + and its nearer node with - its slot.
   template <class Visit>
   void for_each_incidence(const Visit& visit) const {
-    for (Index e = 0; e < segments(); ++e) {
-      visit(cells_[static_cast<std::size_t>(e)][0], e, -1);
-      visit(cells_[static_cast<std::size_t>(e)][1], e, +1);
-    }
+    for_each_pair_incidence(cells_, visit);
   }
   /// From derivatives of segment forces by chords to blocks by nodes: sink(row node, column node, block).
   template <class Sink>
   void spread_block(std::size_t row, std::size_t column, const Matrix3& block, const Sink& sink) const {
-    const auto [near, far] = cells_[row];
-    const auto [near_column, far_column] = cells_[column];
-    sink(near, near_column, block);
-    sink(near, far_column, Matrix3(-block));
-    sink(far, near_column, Matrix3(-block));
-    sink(far, far_column, block);
+    spread_pair_block(cells_[row], cells_[column], block, sink);
   }
 
  private:

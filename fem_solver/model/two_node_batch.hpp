@@ -7,6 +7,7 @@
 #include "core/parallel.hpp"
 #include "fem_solver/elements/axial.hpp"
 #include "fem_solver/model/index.hpp"
+#include "fem_solver/model/pair_incidence.hpp"
 
 namespace talus::fem {
 
@@ -33,10 +34,7 @@ class TwoNodeBatch {
 
   template <class Visit>
   void for_each_incidence(const Visit& visit) const {
-    for (Index e = 0; e < size(); ++e) {
-      visit(segments_[at(e)][0], e, -1);
-      visit(segments_[at(e)][1], e, +1);
-    }
+    for_each_pair_incidence(segments_, visit);
   }
 
   void internal_force(std::span<const double> displacement, std::span<double> slots,
@@ -52,12 +50,8 @@ class TwoNodeBatch {
   template <class Sink>
   void stiffness(std::span<const double> displacement, const Sink& sink) const {
     for (Index e = 0; e < size(); ++e) {
-      const auto [near, far] = segments_[at(e)];
       const Matrix3 K = element(e).stiffness(difference(displacement, e));
-      sink(near, near, K);
-      sink(near, far, -K);
-      sink(far, near, -K);
-      sink(far, far, K);
+      spread_pair_block(segments_[at(e)], segments_[at(e)], K, sink);
     }
   }
 

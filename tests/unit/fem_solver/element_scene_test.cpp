@@ -4,6 +4,7 @@
 #include "core/errors.hpp"
 #include "core/scene/reader.hpp"
 #include "fem_solver/app/structure.hpp"
+#include "tests/unit/fem_solver/structural_scenes.hpp"
 
 // Scenes of membranes, sliding ropes, brakes and slides: what they compute, and what is said about bad ones.
 namespace {
@@ -11,20 +12,8 @@ namespace {
 using namespace talus;
 using namespace talus::fem;
 
-StructuralScene scene(const std::string& structure) {
-  return read_structural_scene(
-      core::SceneFile::parse("time: {end: 1 s}\nstructure:\n" + structure, "scene.yaml"));
-}
-
-/// What is said about a structure that cannot be built.
-std::string complaint(const std::string& structure) {
-  try {
-    Structure built(scene(structure));
-  } catch (const core::ConfigError& error) {
-    return error.what();
-  }
-  return "no complaint";
-}
+using tests::complaint;
+using tests::scene;
 
 std::string part(const std::string& shape, const std::string& element) {
   return "  parts: {part: {" + shape + ", " + element + "}}\n";

@@ -4,27 +4,15 @@
 
 #include "core/scene/reader.hpp"
 #include "fem_solver/app/structure.hpp"
+#include "tests/unit/fem_solver/structural_scenes.hpp"
 
 namespace {
 
 using namespace talus;
 using namespace talus::fem;
 
-/// A scene of a structure, from its YAML body indented by two spaces.
-StructuralScene scene(const std::string& structure) {
-  return read_structural_scene(
-      core::SceneFile::parse("time: {end: 1 s}\nstructure:\n" + structure, "scene.yaml"));
-}
-
-/// What is said about a structure that cannot be built.
-std::string complaint(const std::string& structure) {
-  try {
-    Structure built(scene(structure));
-  } catch (const core::ConfigError& error) {
-    return error.what();
-  }
-  return "no complaint";
-}
+using tests::complaint;
+using tests::scene;
 
 const std::string cable = "cable: {area: 1 cm^2, density: 8000, youngs_modulus: 100 GPa}";
 const std::string net =
