@@ -16,11 +16,12 @@ struct Extent {
 /// spread the grid.
 Extent trimmed_extent(std::vector<double>& values) {
   const std::size_t cut = values.size() / 1000;
-  const auto low = values.begin() + static_cast<std::ptrdiff_t>(cut);
-  std::nth_element(values.begin(), low, values.end());
+  const auto place = values.begin() + static_cast<std::ptrdiff_t>(cut);
+  std::nth_element(values.begin(), place, values.end());
+  const double low = *place;  // now: the next search moves it
   const auto high = values.end() - 1 - static_cast<std::ptrdiff_t>(cut);
-  std::nth_element(low, high, values.end());
-  return {*low, *high};
+  std::nth_element(place, high, values.end());
+  return {low, *high};
 }
 
 }  // namespace

@@ -141,7 +141,7 @@ TEST_CASE("A checkpoint of another scene is refused") {
                     Catch::Contains("cannot be read as a checkpoint"));
 }
 
-TEST_CASE("The neighbour list finds every touching pair of sizes 1 to 50") {
+TEST_CASE("The neighbour list finds every touching pair of sizes 1 to 200") {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> u(0, 1);
   std::vector<SphereInput> input;
@@ -149,7 +149,7 @@ TEST_CASE("The neighbour list finds every touching pair of sizes 1 to 50") {
     input.push_back({.position = {u(random), u(random), 3 * u(random)},
                      .velocity = {},
                      .spin = {},
-                     .radius = 0.002 * std::pow(50, u(random) * u(random)),
+                     .radius = 0.002 * std::pow(200, u(random) * u(random)),
                      .mass = 1});
   Spheres spheres;
   spheres.add(input, false);
@@ -163,6 +163,17 @@ TEST_CASE("The neighbour list finds every touching pair of sizes 1 to 50") {
         ++expected;
   CHECK(list.other().size() + list.wide().size() == expected);
   CHECK_FALSE(list.wide().empty());
+}
+
+TEST_CASE("A grid has a cell for each place of a lattice, in whatever order its points come") {
+  constexpr int side = 30;
+  std::vector<Row> points;
+  for (int i = 0; i < side * side * side; ++i)
+    points.push_back(row({1.0 * (i % side), 1.0 * (i / side % side), 1.0 * (i / side / side)}));
+  for (const unsigned seed : {1u, 2u, 3u}) {
+    std::ranges::shuffle(points, std::mt19937(seed));
+    CHECK(CellGrid(points, 1).counts() == CellGrid::Cell{side, side, side});
+  }
 }
 
 TEST_CASE("The ledger of a damped, sliding bed closes") {
