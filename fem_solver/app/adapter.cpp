@@ -49,10 +49,9 @@ void add_cells(const Part& part, const std::vector<Index>& number, mesh::Surface
   std::visit(
       [&](const auto& batch) {
         for (const auto& cell : batch.cells()) {
-          if constexpr (std::tuple_size_v<std::decay_t<decltype(cell)>> == 2)
-            surface.segments.push_back(renumbered(cell, number));
-          else
-            surface.triangles.push_back(renumbered(cell, number));
+          constexpr std::size_t corners = std::tuple_size_v<std::decay_t<decltype(cell)>>;
+          if constexpr (corners == 2) surface.segments.push_back(renumbered(cell, number));
+          if constexpr (corners == 3) surface.triangles.push_back(renumbered(cell, number));
         }
       },
       part.elements);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -51,6 +52,8 @@ class SlideProjection {
   };
   bool project(const Step& step, std::span<double> velocities) noexcept;
 
+  /// Lets the next step's iteration start from zero impulses, so that it depends on the state alone.
+  void start_from_nothing() noexcept { std::fill(impulse_.begin(), impulse_.end(), 0.0); }
   /// Largest distance of a slider from the rope at the last step's start (m).
   double largest_violation() const noexcept;
   /// Of slider k at the last step's start.

@@ -30,6 +30,7 @@ ExplicitSolver::ExplicitSolver(const Model& model, Assembly& assembly, double st
                          [](double m) { return m > 0 ? 1 / m : 0; });
   if (model.damping.stiffness > 0) damping_force_.resize(values);
   sum_.reserve(model.nodes());
+  for (const auto& slide : model.constrained_slides) slides_.emplace_back(model, slide.line);
 }
 
 void ExplicitSolver::advance(double time, double length) {
@@ -61,8 +62,10 @@ void ExplicitSolver::step(double time, double step) {
   accept_memory(model_);
   impose_supports(time, step);
   arrive(time);
+  if (!slides_.empty()) velocity_before_ = state_.velocity;
   const double activity =
       model_.damping.mass > 0 ? advance_nodes<MassDampingTerm>(step) : advance_nodes<NoTerm>(step);
+  if (!slides_.empty()) hold_slides(time, step);
   leave(time, step);
   state_.previous_step = step;
   ++state_.steps;
@@ -146,6 +149,29 @@ double ExplicitSolver::advance_nodes(double step) noexcept {
   return sum;
 }
 
+// The energy that the constraints take is that of taking last step's offset back: they do no work on a motion
+// along the rope.
+void ExplicitSolver::hold_slides(double time, double step) {
+  const double factor = (1 + 0.5 * model_.damping.mass * state_.kick) / state_.kick;
+  ExplicitState::Work& work = state_.works[by_slides];
+  work.done += work.pending;
+  work.pending = 0;
+  for (std::size_t k = 0; k < slides_.size(); ++k) {
+    const bool converged =
+        slides_[k].project({.length = step, .force_factor = factor},
+                           {state_.displacement, state_.velocity, state_.force, state_.reactions});
+    if (!converged)
+      throw core::NumericalError({.what = "the impulses that hold sliders on their rope do not converge",
+                                  .entity = "largest gap (m) of slide " + model_.constrained_slides[k].name,
+                                  .step = state_.steps,
+                                  .time = time,
+                                  .value = slides_[k].largest_violation(),
+                                  .last_output_time = last_output_time});
+    work.done += 0.5 * state_.previous_step * slides_[k].power(velocity_before_);
+    work.pending += 0.5 * step * slides_[k].power(state_.velocity);
+  }
+}
+
 // A force at t_n does half its work over the step before t_n and half over the step after it; only so does
 // the sum of works match the leapfrog's invariant. arrive() books the first half, leave() keeps the second
 // for the next arrival.
@@ -204,6 +230,7 @@ EnergyBalance ExplicitSolver::balance() {
   balance.loads = state_.works[by_loads].done;
   balance.supports = state_.works[by_supports].done;
   balance.interface = state_.works[by_interface].done;
+  balance.slides = -state_.works[by_slides].done;
   return balance;
 }
 

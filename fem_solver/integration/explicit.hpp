@@ -8,6 +8,7 @@
 #include "core/parallel.hpp"
 #include "fem_solver/assembly/assembly.hpp"
 #include "fem_solver/integration/integrator.hpp"
+#include "fem_solver/integration/slide_run.hpp"
 #include "fem_solver/model/snapshot.hpp"
 
 namespace talus::fem {
@@ -30,7 +31,7 @@ struct ExplicitState {
     double pending = 0;  ///< J; of the half step behind it
     bool operator==(const Work&) const = default;
   };
-  std::array<Work, 4> works;  ///< by loads, supports, the interface, stiffness damping
+  std::array<Work, 5> works;  ///< by loads, supports, the interface, stiffness damping, slides
   bool operator==(const ExplicitState&) const = default;
 };
 
@@ -67,6 +68,7 @@ class ExplicitSolver final : public Integrator {
   /// The balance at the time of the last force evaluation, one step before the present; before the first
   /// step, at time 0.
   EnergyBalance balance() override;
+  double slide_gap(std::size_t slide) const override { return slides_[slide].largest_violation(); }
   void save() override { saved_.take(state_, model_); }
   void archive(core::StateArchive& archive) override;
   const char* method() const override { return "fem_solver explicit"; }
@@ -92,8 +94,10 @@ class ExplicitSolver final : public Integrator {
   /// velocity is.
   template <class MassDamping>
   double advance_nodes(double step) noexcept;
-  enum WorkLine : std::size_t { by_loads, by_supports, by_interface, by_stiffness_damping };
-  using Powers = std::array<double, 4>;
+  /// Takes sliders back to their ropes after a free step.
+  void hold_slides(double time, double step);
+  enum WorkLine : std::size_t { by_loads, by_supports, by_interface, by_stiffness_damping, by_slides };
+  using Powers = std::array<double, 4>;  ///< of what is known before the step
   Powers powers(double time) const noexcept;
   void arrive(double time) noexcept;
   void leave(double time, double step) noexcept;
@@ -106,9 +110,11 @@ class ExplicitSolver final : public Integrator {
   double longest_step_;
   ExplicitState state_;
   Snapshot<ExplicitState> saved_;
-  std::vector<double> inverse_mass_;   ///< 1/kg; 0 for a node without mass
-  std::vector<double> damping_force_;  ///< N; b K v, only where the scene names stiffness damping
-  std::vector<double> free_velocity_;  ///< m/s; only where somebody asks for it
+  std::vector<SlideRun> slides_;         ///< of the model's constrained slides
+  std::vector<double> velocity_before_;  ///< m/s; of the step in progress, where there are slides
+  std::vector<double> inverse_mass_;     ///< 1/kg; 0 for a node without mass
+  std::vector<double> damping_force_;    ///< N; b K v, only where the scene names stiffness damping
+  std::vector<double> free_velocity_;    ///< m/s; only where somebody asks for it
   core::OrderedSum<> sum_;
 };
 

@@ -18,6 +18,7 @@ struct EnergyBalance {
   double loads = 0;                ///< supplied by nodal loads
   double supports = 0;             ///< supplied by prescribed motion
   double interface = 0;            ///< supplied through the interface
+  double slides = 0;               ///< taken by the constraints of sliders, whose error it is
 };
 
 /// Nodes that receive forces from outside, set before every window. Empty in a run on its own.
@@ -45,6 +46,8 @@ class Integrator {
   /// Forces of the supports on the structure (N), 3 for every node of every support in turn.
   virtual std::span<const double> reactions() const = 0;
   virtual EnergyBalance balance() = 0;
+  /// Largest distance of a slider of constrained slide number `slide` from its rope (m).
+  virtual double slide_gap([[maybe_unused]] std::size_t slide) const { return 0; }
 
   virtual void save() = 0;     ///< remembers the present state
   virtual void restore() = 0;  ///< goes back to the state remembered last

@@ -12,6 +12,7 @@
 #include "fem_solver/model/frictional_cable_batch.hpp"
 #include "fem_solver/model/membrane_batch.hpp"
 #include "fem_solver/model/path_batch.hpp"
+#include "fem_solver/model/penalty_slide_batch.hpp"
 #include "fem_solver/model/rope_batch.hpp"
 #include "fem_solver/model/two_node_batch.hpp"
 
@@ -25,9 +26,9 @@ namespace talus::fem {
 ///   allocation stiffness_product(u, w, slots, range) (d2U/du2) w stiffness(u, sink) d2U/du2 as 3x3 blocks
 ///   energy(u)                             U (J), zero at the reference state
 ///   add_mass(node_masses)                 lumped (kg)
-using ElementBatch =
-    std::variant<BarBatch, CableBatch, SlidingCableBatch, PlainMembraneBatch, TensionFieldBatch,
-                 PrincipalTensionFieldBatch, FrictionalCableBatch, BrakeBatch, ElasticPlasticBatch>;
+using ElementBatch = std::variant<BarBatch, CableBatch, SlidingCableBatch, PlainMembraneBatch,
+                                  TensionFieldBatch, PrincipalTensionFieldBatch, FrictionalCableBatch,
+                                  BrakeBatch, ElasticPlasticBatch, PenaltySlideBatch>;
 
 struct Part {
   std::string name;
@@ -71,6 +72,12 @@ struct Damping {
   double stiffness = 0;  ///< s
 };
 
+/// Nodes held on a rope of other elements by multi-point constraints; explicit runs only.
+struct ConstrainedSlide {
+  std::string name;
+  SlideLine line;
+};
+
 struct Model {
   std::vector<double> reference;    ///< m; node positions, 3 a node
   std::vector<double> node_masses;  ///< kg; of elements and point masses
@@ -79,6 +86,7 @@ struct Model {
   std::vector<Support> supports;
   std::vector<NodalLoad> loads;
   std::vector<InitialVelocity> initial_velocities;
+  std::vector<ConstrainedSlide> constrained_slides;
   std::optional<Vector3> gravity;  ///< m/s^2
   Damping damping;
 

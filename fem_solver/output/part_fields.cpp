@@ -130,6 +130,29 @@ struct MembraneQuantities {
       {"slack_area_m2", [](const Batch& b, Displacement u) { return area_in(b, u, SheetState::slack); }}};
 };
 
+struct SlideQuantities {
+  using Batch = PenaltySlideBatch;
+  static constexpr core::CellKind kind = core::CellKind::vertex;
+  static constexpr CellQuantity<Batch> cells[] = {
+      {"gap", "m", [](const Batch& b, Displacement u, Index k) { return b.gap(u, std::size_t(k)); }},
+      {"slide_force", "N",
+       [](const Batch& b, Displacement u, Index k) { return b.force(u, std::size_t(k)); }},
+      {"place_on_rope", "m",
+       [](const Batch& b, Displacement u, Index k) { return b.place(u, std::size_t(k)); }}};
+  template <class Value>
+  static double largest_of(const Batch& b, const Value& value) {
+    double result = 0;
+    for (std::size_t k = 0; k < b.line().sliders.size(); ++k) result = std::max(result, value(k));
+    return result;
+  }
+  static constexpr PartQuantity<Batch> whole[] = {
+      {"gap_max_m", [](const Batch& b,
+                       Displacement u) { return largest_of(b, [&](std::size_t k) { return b.gap(u, k); }); }},
+      {"slide_force_max_N", [](const Batch& b, Displacement u) {
+         return largest_of(b, [&](std::size_t k) { return b.force(u, k); });
+       }}};
+};
+
 /// The quantities of a batch.
 template <class Batch>
 struct QuantitiesOf;
@@ -139,6 +162,8 @@ template <>
 struct QuantitiesOf<SlidingCableBatch> : RopeQuantities {};
 template <>
 struct QuantitiesOf<FrictionalCableBatch> : FrictionalRopeQuantities {};
+template <>
+struct QuantitiesOf<PenaltySlideBatch> : SlideQuantities {};
 template <class Law>
 struct QuantitiesOf<PathBatch<Law>> : PathQuantities<Law> {};
 template <class Law>

@@ -67,6 +67,12 @@ void add_reactions(std::vector<ProbeColumn>& columns, const Model& model) {
   }
 }
 
+void add_slide_gaps(std::vector<ProbeColumn>& columns, const Model& model) {
+  for (std::size_t k = 0; k < model.constrained_slides.size(); ++k)
+    columns.push_back({model.constrained_slides[k].name + ".gap_max_m",
+                       [k](const Integrator& run) { return run.slide_gap(k); }});
+}
+
 /// Keeps the columns whose quantity (the name between the dot and the unit) is asked for.
 void keep_quantities(std::vector<ProbeColumn>& columns, const std::string& probe,
                      const std::vector<std::string>& wanted) {
@@ -105,6 +111,7 @@ std::vector<ProbeColumn> probe_columns(const Model& model, const core::OutputSce
     all.insert(all.end(), columns.begin(), columns.end());
   }
   add_reactions(all, model);
+  add_slide_gaps(all, model);
   return all;
 }
 

@@ -60,6 +60,7 @@ void StructureOutput::choose_ledger_lines() {
     if (dissipates(model_.parts[p].elements))
       line("dissipated_" + model_.parts[p].name, LedgerKind::dissipated,
            [p](const EnergyBalance& b) { return b.dissipated[p]; });
+  if (!model_.constrained_slides.empty()) line("slides", LedgerKind::dissipated, &EnergyBalance::slides);
   if (model_.gravity) line("gravity", LedgerKind::stored, &EnergyBalance::gravity);
   if (model_.damping.mass > 0 || model_.damping.stiffness > 0)
     line("bulk_damping", LedgerKind::dissipated, &EnergyBalance::bulk_damping);

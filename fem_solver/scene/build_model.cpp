@@ -34,6 +34,7 @@ class Builder {
       if (const auto* through = std::get_if<ThroughScene>(&part.second.shape))
         lead_through(part.first, part.second, *through);
     for (auto& part : parts_) add_elements(part);
+    for (const auto& slide : scene_.slides) add_slide(slide, model_);
     lump_masses(model_);
     add_conditions();
     check_masses();

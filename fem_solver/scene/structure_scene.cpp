@@ -1,6 +1,13 @@
 #include "fem_solver/scene/structure_scene.hpp"
 
+#include <algorithm>
+
 namespace talus::fem {
+namespace {
+
+constexpr std::size_t explicit_method = 1;  // in MethodScene; 0: not named, explicit too
+
+}  // namespace
 
 void describe(core::Fields& fields, PartScene& part) {
   part.place = fields.place();
@@ -51,6 +58,7 @@ void describe(core::Fields& fields, StructureScene& structure) {
   fields.map("parts", structure.parts,
              "nets, ropes, posts and membranes by name: a shape and an element each", 1);
   fields.section("weld", structure.weld, "joins parts where their nodes coincide");
+  fields.map("slides", structure.slides, "nodes that run along ropes of bars or cables, by name");
   fields.map("node_sets", structure.node_sets, "nodes by name, for supports, loads and ropes");
   fields.list("supports", structure.supports, "nodes whose motion is given");
   fields.list("loads", structure.loads, "forces on nodes");
@@ -62,6 +70,11 @@ void describe(core::Fields& fields, StructureScene& structure) {
                 {{"explicit", "central differences; what a scene gets that names no method"},
                  {"implicit", "generalised-alpha method with Newton's iteration"},
                  {"static", "equilibrium; what has no `over_time` grows linearly up to time.end"}});
+  const bool constrained = std::ranges::any_of(structure.slides, [](const NamedSlide& slide) {
+    return std::holds_alternative<ConstraintSlideScene>(slide.second.method);
+  });
+  fields.rule(!constrained || structure.method.index() <= explicit_method, "slides",
+              "hold by constraints in explicit runs only; take `penalty`, or a `sliding_cable` for the rope");
   fields.optional("step", structure.step,
                   {.unit = "s",
                    .range = core::positive,

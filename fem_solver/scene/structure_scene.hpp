@@ -11,6 +11,7 @@
 #include "fem_solver/scene/conditions.hpp"
 #include "fem_solver/scene/element_scenes.hpp"
 #include "fem_solver/scene/shapes.hpp"
+#include "fem_solver/scene/slides.hpp"
 
 /// The section `structure` of a scene.
 namespace talus::fem {
@@ -59,6 +60,7 @@ struct StructureScene {
   std::optional<core::Vector3> gravity;  ///< m/s^2
   std::vector<std::pair<std::string, PartScene>> parts;
   std::optional<WeldScene> weld;
+  std::vector<NamedSlide> slides;
   std::vector<std::pair<std::string, NodeSelection>> node_sets;
   std::vector<SupportScene> supports;
   std::vector<LoadScene> loads;

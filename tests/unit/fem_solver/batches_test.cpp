@@ -110,6 +110,14 @@ TEST_CASE("a batch of membranes or a rope gives the forces of its energy and the
   check_batch(model_of(nodes, rope(nodes)), line / 0.1, true);
 }
 
+TEST_CASE(
+    "springs that hold sliders on a rope give the forces of their energy and the stiffness of their forces") {
+  // Two sliders beside a bent rope, between its nodes; the states of check_batch are within 0.01 m of it.
+  const std::vector<double> nodes{0, 0, 0, 0.4, 0, 0, 0.8, 0.1, 0, 0.2, 0.05, 0.02, 0.6, 0.02, -0.03};
+  const double penalty = 1e3;
+  check_batch(model_of(nodes, PenaltySlideBatch({{0, 1, 2}, {3, 4}}, penalty, nodes)), penalty, true);
+}
+
 TEST_CASE("packed triangles have the bits of one triangle at a time") {
   Dice dice(72);
   const std::vector<double> nodes = sheet_nodes(dice);

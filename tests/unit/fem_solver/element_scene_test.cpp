@@ -69,6 +69,47 @@ TEST_CASE("bad membranes, ropes and brakes get complaints that name the key and 
   check(part(line, "brake: {table: [], mass_per_length: 1}"), "structure.parts.part");
 }
 
+namespace {
+
+/// A rope of cables along x, and a net whose southern edge, moved off it in z, may run on it.
+std::string slides(const std::string& slide, const std::string& others = "") {
+  return "  parts:\n"
+         "    rope: {polyline: {points: [[0, 0, 0], [3, 0, 0]], divisions: 4}, cable: {" +
+         section +
+         "}}\n"
+         "    net: {square_net: {corner: [0, 0, 0], size: [3, 3], pitch: 1, rim: open}, cable: {" +
+         section +
+         "}}\n"
+         "    post: {polyline: {points: [[0, 0, 0], [0, 0, 5]]}, bar: {" +
+         section +
+         "}}\n"
+         "  slides: {edge: {" +
+         slide + "}}\n" + others;
+}
+
+}  // namespace
+
+TEST_CASE("bad slides get complaints that name the slide, the node and the distance") {
+  const auto check = [](const std::string& structure, const std::string& expected) {
+    CHECK_THAT(complaint(structure), Catch::Contains(expected));
+  };
+  const std::string spring = ", penalty: {stiffness: 1 kN/m}";
+  CHECK(complaint(slides("rope: rope, nodes: net.edge_south" + spring)) == "no complaint");
+  CHECK(complaint(slides("rope: rope, nodes: net.edge_south, constraint: {}")) == "no complaint");
+  check(slides("rope: robe, nodes: net.edge_south" + spring),
+        "structure.slides.edge.rope: the structure has no part 'robe'");
+  check(slides("rope: net, nodes: net.edge_south" + spring),
+        "structure.slides.edge.rope: a sliding cable is one line");
+  check(slides("rope: rope, nodes: net.edge_south"), "structure.slides.edge");
+  check(slides("rope: rope, nodes: rope.start" + spring),
+        "structure.slides.edge.nodes: node 0 of rope at (0, 0, 0) m is a node of the rope itself");
+  check(slides("rope: rope, nodes: net.edge_north" + spring), "is 3 m away from the rope, more than 0.03 m");
+  check(slides("rope: rope, nodes: net.edge_south, penalty: {stiffness: -1}"),
+        "structure.slides.edge.penalty.stiffness");
+  check(slides("rope: rope, nodes: net.edge_south, constraint: {}", "  static: {}\n"),
+        "hold by constraints in explicit runs only");
+}
+
 TEST_CASE("a weight on a sliding cable of a scene settles at the lowest point of the ellipse") {
   // As for the element alone: equal angles to the vertical, sin a = span/L, drops d1 + d2 = L cos a.
   const double span = 4, rise = 1;

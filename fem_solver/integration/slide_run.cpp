@@ -1,0 +1,88 @@
+#include "fem_solver/integration/slide_run.hpp"
+
+#include <algorithm>
+
+#include "fem_solver/integration/external_force.hpp"
+
+namespace talus::fem {
+
+SlideRun::SlideRun(const Model& model, const SlideLine& line)
+    : model_(model),
+      rope_nodes_(line.rope.size()),
+      nodes_(line.rope),
+      projection_({.rope_nodes = line.rope.size(), .sliders = line.sliders.size()}) {
+  nodes_.insert(nodes_.end(), line.sliders.begin(), line.sliders.end());
+  for (auto* array : {&positions_, &velocities_, &forces_, &pulls_}) array->resize(3 * nodes_.size());
+  for (const Index node : nodes_)
+    inverse_masses_.insert(inverse_masses_.end(), 3, 1 / model.node_masses[static_cast<std::size_t>(node)]);
+  for_each_support(model, [&](const Support& support, std::size_t dof, std::size_t reaction) {
+    const auto found = std::ranges::find(nodes_, static_cast<Index>(dof / 3));
+    if (found == nodes_.end()) return;
+    const auto local = 3 * static_cast<std::size_t>(found - nodes_.begin());
+    for (std::size_t c = 0; c < 3; ++c) {
+      if (!support.fixed[c]) continue;
+      inverse_masses_[local + c] = 0;
+      held_.push_back({local + c, reaction + c});
+    }
+  });
+}
+
+// Impulses start from nothing: every number of a step comes from the state, so that restored runs repeat it.
+bool SlideRun::project(const Step& step, const Arrays& arrays) noexcept {
+  take(step, arrays);
+  projection_.start_from_nothing();
+  const bool converged = projection_.project({positions_, inverse_masses_, step.length}, velocities_);
+  give(step, arrays);
+  pull_supports(step.force_factor, arrays.reactions);
+  return converged;
+}
+
+/// Positions at the step's start, and the velocities of the free step.
+void SlideRun::take(const Step& step, const Arrays& arrays) noexcept {
+  for (std::size_t k = 0; k < nodes_.size(); ++k) {
+    const auto node = 3 * static_cast<std::size_t>(nodes_[k]);
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double velocity = arrays.velocity[node + c];
+      velocities_[3 * k + c] = velocity;
+      positions_[3 * k + c] =
+          model_.reference[node + c] + arrays.displacement[node + c] - step.length * velocity;
+    }
+  }
+}
+
+void SlideRun::give(const Step& step, const Arrays& arrays) noexcept {
+  for (std::size_t k = 0; k < nodes_.size(); ++k) {
+    const auto node = 3 * static_cast<std::size_t>(nodes_[k]);
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double change = velocities_[3 * k + c] - arrays.velocity[node + c];
+      arrays.displacement[node + c] += step.length * change;
+      arrays.velocity[node + c] += change;
+      forces_[3 * k + c] = model_.node_masses[node / 3] * step.force_factor * change;
+      arrays.force[node + c] += forces_[3 * k + c];
+    }
+  }
+}
+
+double SlideRun::power(std::span<const double> velocity) const noexcept {
+  double sum = 0;
+  for (std::size_t k = 0; k < nodes_.size(); ++k)
+    sum +=
+        Vector3::Map(&forces_[3 * k]).dot(Vector3::Map(&velocity[3 * static_cast<std::size_t>(nodes_[k])]));
+  return sum;
+}
+
+/// Supports hold the share of the impulses that falls to their nodes.
+void SlideRun::pull_supports(double force_factor, std::span<double> reactions) noexcept {
+  if (held_.empty()) return;
+  std::ranges::fill(pulls_, 0.0);
+  for (std::size_t k = 0; k < projection_.contacts().size(); ++k) {
+    const auto& contact = projection_.contacts()[k];
+    const Vector3 impulse = Vector3::Map(&projection_.impulses()[3 * k]);
+    Vector3::Map(&pulls_[3 * (rope_nodes_ + k)]) += impulse;
+    Vector3::Map(&pulls_[3 * contact.segment]) -= (1 - contact.fraction) * impulse;
+    Vector3::Map(&pulls_[3 * contact.segment + 3]) -= contact.fraction * impulse;
+  }
+  for (const auto& [direction, reaction] : held_) reactions[reaction] -= force_factor * pulls_[direction];
+}
+
+}  // namespace talus::fem

@@ -1,0 +1,93 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "core/parallel.hpp"
+#include "fem_solver/constraints/penalty_sliding.hpp"
+#include "fem_solver/elements/axial.hpp"
+#include "fem_solver/model/slide_line.hpp"
+
+namespace talus::fem {
+
+/// Springs that hold sliders on a rope made of other elements [P eq. 5-7]. The nearest segment is searched
+/// anew at every state, so sliders go from one segment to the next by themselves. One force slot a slider and
+/// one a rope node, because which rope nodes a slider pulls changes. Has no mass. @see ElementBatch for the
+/// meaning of the members.
+class PenaltySlideBatch {
+ public:
+  /// @param penalty N/m. @param reference node positions, 3 a node (m)
+  PenaltySlideBatch(SlideLine line, double penalty, std::span<const double> reference);
+
+  Index size() const { return 1; }  ///< sliders share rope nodes, so they are computed in one go
+  Index slots() const { return static_cast<Index>(line_.sliders.size() + line_.rope.size()); }
+  const std::vector<std::array<Index, 1>>& cells() const { return cells_; }
+  const SlideLine& line() const { return line_; }
+
+  template <class Visit>
+  void for_each_incidence(const Visit& visit) const {
+    Index slot = 0;
+    for (const Index node : line_.sliders) visit(node, slot++, +1);
+    for (const Index node : line_.rope) visit(node, slot++, +1);
+  }
+
+  void internal_force(std::span<const double> displacement, std::span<double> slots,
+                      core::Block) const noexcept;
+  void stiffness_product(std::span<const double> displacement, std::span<const double> direction,
+                         std::span<double> slots, core::Block) const noexcept;
+  void stiffest_product(std::span<const double> displacement, std::span<const double> direction,
+                        std::span<double> slots, core::Block elements) const noexcept {
+    stiffness_product(displacement, direction, slots, elements);
+  }
+  double energy(std::span<const double> displacement) const noexcept;
+  void add_mass(std::span<double>) const noexcept {}
+  /// Distance of slider k from the rope (m).
+  double gap(std::span<const double> displacement, std::size_t slider) const noexcept;
+  /// Force between slider k and the rope (N).
+  double force(std::span<const double> displacement, std::size_t slider) const noexcept {
+    return penalty_ * gap(displacement, slider);
+  }
+  /// Place of slider k along the rope: its current length from the first node to the slider's foot (m).
+  double place(std::span<const double> displacement, std::size_t slider) const noexcept;
+
+  /// Every pair of a slider and a rope node, and of neighbouring rope nodes, gets a block; those not in touch
+  /// are zero.
+  template <class Sink>
+  void stiffness(std::span<const double> displacement, const Sink& sink) const {
+    for (std::size_t k = 0; k < line_.sliders.size(); ++k) {
+      const Contact contact = find(displacement, k);
+      const PenaltySlide::Matrix9 K = spring(displacement, contact, k).stiffness();
+      const auto block = [&](int i, int j) { return Matrix3(K.block<3, 3>(3 * i, 3 * j)); };
+      const Index slider = line_.sliders[k];
+      sink(slider, slider, block(2, 2));
+      for (std::size_t r = 0; r < line_.rope.size(); ++r) {
+        const int own = r == contact.segment ? 0 : r == contact.segment + 1 ? 1 : -1;
+        sink(slider, line_.rope[r], own < 0 ? zero() : block(2, own));
+        sink(line_.rope[r], slider, own < 0 ? zero() : block(own, 2));
+        sink(line_.rope[r], line_.rope[r], own < 0 ? zero() : block(own, own));
+        if (r + 1 == line_.rope.size()) break;
+        const bool inside = r == contact.segment;
+        sink(line_.rope[r], line_.rope[r + 1], inside ? block(0, 1) : zero());
+        sink(line_.rope[r + 1], line_.rope[r], inside ? block(1, 0) : zero());
+      }
+    }
+  }
+
+ private:
+  struct Contact {
+    std::size_t segment = 0;
+  };
+  static Matrix3 zero() { return Matrix3::Zero(); }
+  Vector3 position(std::span<const double> displacement, Index node) const noexcept;
+  Contact find(std::span<const double> displacement, std::size_t slider) const noexcept;
+  PenaltySlide spring(std::span<const double> displacement, const Contact& contact,
+                      std::size_t slider) const noexcept;
+
+  SlideLine line_;
+  double penalty_;
+  std::vector<double> reference_;  ///< m; of all nodes, 3 a node
+  std::vector<std::array<Index, 1>> cells_;
+};
+
+}  // namespace talus::fem

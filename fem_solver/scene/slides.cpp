@@ -1,0 +1,98 @@
+#include "fem_solver/scene/slides.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/errors.hpp"
+#include "fem_solver/constraints/nearest_segment.hpp"
+#include "fem_solver/model/rope_batch.hpp"
+#include "fem_solver/scene/node_sets.hpp"
+
+namespace talus::fem {
+namespace {
+
+/// How far a slider may be from its rope at the start, of the rope's length: farther is a slip of the pen.
+constexpr double farthest_share = 0.01;
+
+std::string key(const NamedSlide& slide) {
+  return fmt::format("{}: structure.slides.{}", slide.second.place, slide.first);
+}
+
+std::vector<Index> rope_nodes(const NamedSlide& slide, const Model& model) {
+  const auto part = std::ranges::find(model.parts, slide.second.rope, &Part::name);
+  if (part == model.parts.end())
+    throw core::ConfigError(
+        fmt::format("{}.rope: the structure has no part '{}'", key(slide), slide.second.rope));
+  return std::visit(
+      [&](const auto& batch) -> std::vector<Index> {
+        if constexpr (std::tuple_size_v<std::decay_t<decltype(batch.cells().front())>> == 2) {
+          try {
+            return RopeLine(batch.cells(), model.reference).nodes();
+          } catch (const core::ConfigError& error) {
+            throw core::ConfigError(fmt::format("{}.rope: {}", key(slide), error.what()));
+          }
+        } else {
+          throw core::ConfigError(
+              fmt::format("{}.rope: '{}' is not made of lines", key(slide), slide.second.rope));
+        }
+      },
+      part->elements);
+}
+
+void check_sliders(const NamedSlide& slide, const SlideLine& line, const Model& model) {
+  const auto position = [&](std::size_t k) { return model.position(line.rope[k]); };
+  double length = 0;
+  for (std::size_t k = 0; k + 1 < line.rope.size(); ++k) length += (position(k + 1) - position(k)).norm();
+  for (const Index node : line.sliders) {
+    if (std::ranges::find(line.rope, node) != line.rope.end())
+      throw core::ConfigError(
+          fmt::format("{}.nodes: {} is a node of the rope itself", key(slide), node_name(model, node)));
+    const double gap =
+        std::sqrt(nearest_segment(line.rope.size() - 1, position, model.position(node)).squared_distance);
+    if (gap > farthest_share * length)
+      throw core::ConfigError(fmt::format("{}.nodes: {} is {:.4g} m away from the rope, more than {:.4g} m",
+                                          key(slide), node_name(model, node), gap, farthest_share * length));
+  }
+}
+
+std::vector<Index> ascending(std::vector<Index> nodes) {
+  std::ranges::sort(nodes);
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  return nodes;
+}
+
+}  // namespace
+
+void describe(core::Fields& fields, PenaltySlideScene& penalty) {
+  fields.required("stiffness", penalty.stiffness,
+                  {.unit = "N/m",
+                   .range = core::positive,
+                   .help = "of the spring of each node; leaves a gap of force over stiffness"});
+}
+void describe(core::Fields&, ConstraintSlideScene&) {}
+
+void describe(core::Fields& fields, SlideScene& slide) {
+  slide.place = fields.place();
+  fields.required("rope", slide.rope, {.help = "the part of two-node elements they run along"});
+  fields.required("nodes", slide.nodes, {.help = "the node set that runs: net.edge_south"});
+  fields.one_of(slide.method, {{"penalty", "springs hold the nodes on the rope, with a gap"},
+                               {"constraint", "constraints hold them, without; explicit runs only"}});
+}
+
+void add_slide(const NamedSlide& slide, Model& model) {
+  const auto& [name, scene] = slide;
+  if (std::ranges::find(model.parts, name, &Part::name) != model.parts.end())
+    throw core::ConfigError(fmt::format("{}: there is a part of this name already", key(slide)));
+  SlideLine line{rope_nodes(slide, model), find_node_set(model, key(slide) + ".nodes", scene.nodes)};
+  check_sliders(slide, line, model);
+  const auto* penalty = std::get_if<PenaltySlideScene>(&scene.method);
+  if (!penalty) return model.constrained_slides.push_back({name, std::move(line)});
+  std::vector<Index> nodes = line.rope;
+  nodes.insert(nodes.end(), line.sliders.begin(), line.sliders.end());
+  model.parts.push_back({name, PenaltySlideBatch(std::move(line), penalty->stiffness, model.reference),
+                         ascending(std::move(nodes))});
+}
+
+}  // namespace talus::fem
