@@ -8,7 +8,7 @@
 namespace talus::fem {
 namespace {
 
-/// Of the velocities, relative to those that have to be taken away.
+/// Of the velocities across the ropes, relative to those of sliders and rope.
 constexpr double closeness = 1e-13;
 
 /// The 3-vector of a node in an array of many, to read or to write.
@@ -37,39 +37,60 @@ SlideProjection::SlideProjection(const Sizes& sizes)
 
 bool SlideProjection::project(const Step& step, std::span<double> velocities) noexcept {
   find_contacts(step, velocities);
-  // residual = -P (g' + g/dt) after the starting impulses
-  spread(impulse_, step);
-  double target = 0;  // what has to change, and what the starting impulses change
-  for (std::size_t k = 0; k < sizes_.sliders; ++k) {
-    const Vector3 wanted = across(k, -relative(k, velocities) - relative(k, step.positions) / step.length);
-    const Vector3 started = across(k, relative(k, change_));
-    target += wanted.squaredNorm() + started.squaredNorm();
-    at(residual_, k) = wanted - started;
-    at(direction_, k) = preconditioner(k, step) * at(residual_, k);
-  }
-  const double enough = closeness * closeness * target;
-  double slope = dot(residual_, direction_);
-  const std::size_t most_steps = 20 * sizes_.sliders + 20;
-  std::size_t count = 0;
-  for (; count < most_steps && dot(residual_, residual_) > enough; ++count) {
-    spread(direction_, step);
-    for (std::size_t k = 0; k < sizes_.sliders; ++k) at(product_, k) = across(k, relative(k, change_));
-    const double length = slope / dot(direction_, product_);
-    for (std::size_t i = 0; i < impulse_.size(); ++i) {
-      impulse_[i] += length * direction_[i];
-      residual_[i] -= length * product_[i];
-    }
-    const double old_slope = slope;
-    slope = 0;
-    for (std::size_t k = 0; k < sizes_.sliders; ++k)
-      slope += preconditioner(k, step) * at(residual_, k).squaredNorm();
-    for (std::size_t k = 0; k < sizes_.sliders; ++k)
-      at(direction_, k) =
-          preconditioner(k, step) * at(residual_, k) + (slope / old_slope) * at(direction_, k);
-  }
+  const double enough = start_residuals(step, velocities);
+  const bool converged = solve_impulses(step, enough);
   spread(impulse_, step);
   for (std::size_t i = 0; i < change_.size(); ++i) velocities[i] += change_[i];
-  return count < most_steps;
+  return converged;
+}
+
+/// residual = -P (dg/dt + g/dt) after the starting impulses. @returns the square at which it is round-off: of
+/// the velocities that its differences are taken of, however small these are themselves
+double SlideProjection::start_residuals(const Step& step, std::span<const double> velocities) noexcept {
+  spread(impulse_, step);
+  double speeds = 0;
+  for (std::size_t k = 0; k < sizes_.sliders; ++k) {
+    const Vector3 changed = relative(k, change_), back = relative(k, step.positions) / step.length;
+    at(residual_, k) = across(k, -relative(k, velocities) - back - changed);
+    speeds += at(velocities, sizes_.rope_nodes + k).squaredNorm() +
+              at(velocities, contacts_[k].segment).squaredNorm() +
+              at(velocities, contacts_[k].segment + 1).squaredNorm() + changed.squaredNorm() +
+              back.squaredNorm();
+  }
+  return closeness * closeness * speeds;
+}
+
+// The system is singular along the ropes. Residuals are therefore turned across them anew each time: what
+// round-off leaves along a rope would be divided by round-off and come back as an impulse of any size.
+bool SlideProjection::solve_impulses(const Step& step, double enough) noexcept {
+  const std::size_t most_steps = 20 * sizes_.sliders + 20;
+  double old_slope = 0;
+  for (std::size_t count = 0; dot(residual_, residual_) > enough; ++count) {
+    const double slope = weighted_residual(step);
+    for (std::size_t k = 0; k < sizes_.sliders; ++k) {
+      at(direction_, k) *= count == 0 ? 0 : slope / old_slope;
+      at(direction_, k) += preconditioner(k, step) * at(residual_, k);
+    }
+    spread(direction_, step);
+    for (std::size_t k = 0; k < sizes_.sliders; ++k) at(product_, k) = across(k, relative(k, change_));
+    const double curvature = dot(direction_, product_);
+    if (count == most_steps || !(curvature > 0)) return false;
+    for (std::size_t i = 0; i < impulse_.size(); ++i) {
+      impulse_[i] += slope / curvature * direction_[i];
+      residual_[i] -= slope / curvature * product_[i];
+    }
+    for (std::size_t k = 0; k < sizes_.sliders; ++k) at(residual_, k) = across(k, at(residual_, k));
+    old_slope = slope;
+  }
+  return true;
+}
+
+/// residual . preconditioner residual
+double SlideProjection::weighted_residual(const Step& step) const noexcept {
+  double sum = 0;
+  for (std::size_t k = 0; k < sizes_.sliders; ++k)
+    sum += preconditioner(k, step) * at(residual_, k).squaredNorm();
+  return sum;
 }
 
 /// Where each slider stands, and whether it is about to leave the rope; last step's impulses are turned into

@@ -73,6 +73,9 @@ class SlideProjection {
   void spread(std::span<const double> impulses, const Step& step) noexcept;
   Vector3 relative(std::size_t slider, std::span<const double> node_values) const noexcept;
   Vector3 across(std::size_t slider, const Vector3& v) const noexcept;
+  double start_residuals(const Step& step, std::span<const double> velocities) noexcept;
+  bool solve_impulses(const Step& step, double enough) noexcept;
+  double weighted_residual(const Step& step) const noexcept;
   double preconditioner(std::size_t slider, const Step& step) const noexcept;
 
   Sizes sizes_;

@@ -65,6 +65,24 @@ void PenaltySlideBatch::stiffness_product(std::span<const double> displacement,
   }
 }
 
+void PenaltySlideBatch::stiffest_product(std::span<const double> displacement,
+                                         std::span<const double> direction, std::span<double> slots,
+                                         core::Block) const noexcept {
+  const std::size_t sliders = line_.sliders.size();
+  std::fill_n(slots.begin(), 3 * (sliders + line_.rope.size()), 0.0);
+  const auto change = [&](Index node) {
+    return Vector3::Map(&direction[3 * static_cast<std::size_t>(node)]);
+  };
+  for (std::size_t k = 0; k < sliders; ++k) {
+    const Contact contact = find(displacement, k);
+    const double fraction = spring(displacement, contact, k).fraction();
+    const std::size_t nearest = contact.segment + (fraction > 0.5 ? 1 : 0);
+    const Vector3 pull = penalty_ * (change(line_.sliders[k]) - change(line_.rope[nearest]));
+    Vector3::Map(&slots[3 * k]) = pull;
+    Vector3::Map(&slots[3 * (sliders + nearest)]) -= pull;
+  }
+}
+
 double PenaltySlideBatch::energy(std::span<const double> displacement) const noexcept {
   double sum = 0;
   for (std::size_t k = 0; k < line_.sliders.size(); ++k)

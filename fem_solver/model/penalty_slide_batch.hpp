@@ -36,10 +36,10 @@ class PenaltySlideBatch {
                       core::Block) const noexcept;
   void stiffness_product(std::span<const double> displacement, std::span<const double> direction,
                          std::span<double> slots, core::Block) const noexcept;
+  /// As if every slider stood at the rope node nearest to it, where its spring has only that node's mass to
+  /// pull; without the geometric part, a share gap/segment of the rest.
   void stiffest_product(std::span<const double> displacement, std::span<const double> direction,
-                        std::span<double> slots, core::Block elements) const noexcept {
-    stiffness_product(displacement, direction, slots, elements);
-  }
+                        std::span<double> slots, core::Block elements) const noexcept;
   double energy(std::span<const double> displacement) const noexcept;
   void add_mass(std::span<double>) const noexcept {}
   /// Distance of slider k from the rope (m).

@@ -254,3 +254,22 @@ TEST_CASE("a slider off its rope is back on it after one step and one at the rop
   REQUIRE(projection.project({at_end, inverse, 0.01}, returning));
   CHECK(returning[6] == -3);
 }
+
+TEST_CASE("a slider that nearly follows its rope by itself gets no more impulse than it needs") {
+  // A rigid turn about the origin and a slide along the rope keep the constraint; the impulse must be that of
+  // the small speed across, not round-off of the large speeds divided by round-off.
+  Dice dice(58);
+  for (int trial = 0; trial < 2000; ++trial) {
+    Vector9 x = random_slide(dice, 0), v;
+    const Vector3 w = x.segment<3>(3) - x.segment<3>(0);
+    x.segment<3>(6) = x.segment<3>(0) + dice.uniform(0.1, 0.9) * w;
+    const Vector3 spin = dice.vector(3);
+    for (int i = 0; i < 9; i += 3) v.segment<3>(i) = spin.cross(x.segment<3>(i));
+    const double across = dice.decades(1e-12, 1);
+    v.segment<3>(6) += dice.uniform(-5, 5) * w + across * w.cross(dice.vector(1)).normalized();
+    const Vector9 before = v, inverse = Vector9::Ones();
+    SlideProjection projection({2, 1});
+    REQUIRE(projection.project({{x.data(), 9}, {inverse.data(), 9}, 1}, {v.data(), 9}));
+    CHECK((v - before).norm() < across + 1e-12 * (before.norm() + x.norm()));
+  }
+}

@@ -44,6 +44,19 @@ TEST_CASE("a slack cable limits the step as if it were taut, because it may beco
         Approx(2 * std::sqrt(2e11 / 8000) / (2.0 / 16)).epsilon(1e-6));
 }
 
+TEST_CASE("a slider held by a spring limits the step as it does where it passes a rope node") {
+  // A soft rope, so that the spring alone counts: w^2 = alpha (1/m_slider + 1/m_node), wherever it stands
+  // now.
+  constexpr double alpha = 1e6, slider_mass = 0.3, softness = 1e-6;
+  Model model = tests::chain<BarBatch>({.section = {1e-4, softness, 0}, .density = 8000}, 2, 4);
+  model.reference.insert(model.reference.end(), {0.8, 0, 0});  // between nodes 1 and 2
+  model.parts.push_back({"slide", PenaltySlideBatch({{0, 1, 2, 3, 4}, {5}}, alpha, model.reference), {}});
+  lump_masses(model);
+  model.node_masses[5] = slider_mass;
+  const double expected = std::sqrt(alpha * (1 / slider_mass + 1 / model.node_masses[2]));
+  CHECK(frequency_at_rest(model) == Approx(expected).epsilon(1e-6));
+}
+
 TEST_CASE("a free oscillator is stable just below the limit and blows up just above it") {
   for (const double stiffness_damping : {0.0, 1e-5, 1e-3}) {
     for (const double mass_damping : {0.0, 300.0}) {
