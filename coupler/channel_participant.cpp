@@ -61,14 +61,14 @@ ChannelParticipant::ChannelParticipant(std::shared_ptr<Segment> segment, const J
   const ProcessIdentity self = this_process();
   channel_.pid = self.pid;
   channel_.start_time = self.start;
-  sem_post(&channel_.answer_posted);
+  post(channel_.answer_posted);
 }
 
 ChannelParticipant::~ChannelParticipant() {
   auto expected = static_cast<std::uint32_t>(ChannelState::joined);
   std::atomic_ref(channel_.state)
       .compare_exchange_strong(expected, static_cast<std::uint32_t>(ChannelState::left));
-  sem_post(&channel_.answer_posted);
+  post(channel_.answer_posted);
 }
 
 void ChannelParticipant::expect(Stage stage, const char* call) const {
@@ -147,7 +147,6 @@ Command ChannelParticipant::next() {
   if (stage_ != Stage::declared) expect(Stage::idle, "next()");
   waited_for_ = "the next command";
   wait(channel_.command_posted, [this](double seconds) { look_around(seconds); });
-  (void)load(channel_.commands);
   if (load(control_.header.state) != static_cast<std::uint32_t>(RunState::running)) look_around(0);
   if (stage_ == Stage::declared) map_arrays();
   const Command command = command_of(channel_.command);
@@ -159,7 +158,7 @@ Command ChannelParticipant::next() {
 void ChannelParticipant::answer() {
   expect(Stage::answering, "answer()");
   stage_ = Stage::idle;
-  post(channel_.answer_posted, channel_.answers);
+  post(channel_.answer_posted);
 }
 
 void ChannelParticipant::fail(const std::exception& error) noexcept {
@@ -173,7 +172,7 @@ void ChannelParticipant::fail(const std::exception& error) noexcept {
     channel_.failure_bytes = 0;  // out of memory: the coupler then says that no reason was given
   }
   store(channel_.state, static_cast<std::uint32_t>(ChannelState::failed));
-  sem_post(&channel_.answer_posted);
+  post(channel_.answer_posted);
 }
 
 void ChannelParticipant::map_arrays() {

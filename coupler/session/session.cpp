@@ -163,7 +163,7 @@ void Session::post(Peer& peer, const Command& command) {
   std::memcpy(record.path.data(), command.path.c_str(), command.path.size() + 1);
   window_ = command.window;
   action_ = command.action;
-  transport::post(peer.channel().command_posted, peer.channel().commands);
+  transport::post(peer.channel().command_posted);
 }
 
 void Session::wait_answer(Peer& peer) {
@@ -174,7 +174,6 @@ void Session::wait_answer(Peer& peer) {
                  .limit = options_.timeout},
                 seconds);
   });
-  (void)load(channel.answers);
   if (load(channel.state) != static_cast<std::uint32_t>(ChannelState::joined)) {
     check_alive({.peer = peer, .what = fmt::format("the answer to '{}'", name_of(action_))});
   }
@@ -228,7 +227,7 @@ void Session::abort(const std::string& why) noexcept {
   std::copy_n(why.begin(), bytes, header.abort_text.begin());
   store(header.abort_text_bytes, static_cast<std::uint32_t>(bytes));
   store(header.state, static_cast<std::uint32_t>(RunState::aborted));
-  for (const auto& peer : peers_) sem_post(&peer->channel().command_posted);
+  for (const auto& peer : peers_) transport::post(peer->channel().command_posted);
   segment_->remove_name();
   if (everybody_left(options_.grace)) return;
   for (const auto& peer : peers_) {

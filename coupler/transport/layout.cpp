@@ -30,7 +30,7 @@ std::uint64_t layout_hash() noexcept {
                                                 offsetof(Header, data_bytes),
                                                 offsetof(Header, heartbeat),
                                                 offsetof(Header, abort_text),
-                                                sizeof(sem_t),
+                                                sizeof(Signal),
                                                 offsetof(CommandRecord, window),
                                                 offsetof(CommandRecord, time),
                                                 offsetof(CommandRecord, path),
@@ -58,8 +58,8 @@ Control& initialise(std::span<std::byte> memory, bool between_processes) {
   control.header.control_bytes = sizeof(Control);
   control.header.state = static_cast<std::uint32_t>(RunState::running);
   for (auto& channel : control.channels) {
-    open_semaphore(channel.command_posted, between_processes);
-    open_semaphore(channel.answer_posted, between_processes);
+    open_semaphore(channel.command_posted.raised, between_processes);
+    open_semaphore(channel.answer_posted.raised, between_processes);
   }
   return control;
 }

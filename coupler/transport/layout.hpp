@@ -20,7 +20,7 @@
 namespace talus::coupler::transport {
 
 inline constexpr std::uint64_t magic_number = 0x314C505553554C54;  // "TLUSUPL1"
-inline constexpr std::uint32_t layout_version = 2;
+inline constexpr std::uint32_t layout_version = 3;
 inline constexpr std::size_t role_count = 2;
 inline constexpr std::size_t array_alignment = 64;
 
@@ -86,15 +86,19 @@ struct Mailbox {
   std::array<std::byte, 65536> bytes{};
 };
 
+/// One side's word to the other that it has done its part.
+struct Signal {
+  sem_t raised;
+  std::int64_t posted_at = 0;  ///< ns of the monotonic clock; released by the side that posts, acquired by
+                               ///< the side that waits
+};
+
 struct alignas(array_alignment) Channel {
   std::uint32_t state = 0;  ///< ChannelState
   std::uint32_t failure_bytes = 0;
   std::int64_t pid = 0;
   std::uint64_t start_time = 0;  ///< clock ticks since boot
-  sem_t command_posted;
-  sem_t answer_posted;
-  std::uint64_t commands = 0;  ///< posted so far; released by the coupler, acquired by the participant
-  std::uint64_t answers = 0;   ///< the other way round
+  Signal command_posted, answer_posted;
   CommandRecord command;
   std::array<ArraySlot, array_count> arrays{};
   std::array<std::byte, 32768> failure{};  ///< CBOR of why the participant cannot go on
@@ -109,7 +113,7 @@ struct alignas(4096) Control {
 static_assert(std::is_trivially_copyable_v<Control> && std::is_standard_layout_v<Control>);
 static_assert(sizeof(Header) == 2056 && sizeof(CommandRecord) == 1064 && sizeof(ArraySlot) == 16 &&
               sizeof(Mailbox) == 65552);
-static_assert(sizeof(sem_t) == 32 && sizeof(Channel) % array_alignment == 0 && sizeof(Control) % 4096 == 0);
+static_assert(sizeof(Signal) == 40 && sizeof(Channel) % array_alignment == 0 && sizeof(Control) % 4096 == 0);
 
 /// Digest of sizes and offsets of everything above.
 std::uint64_t layout_hash() noexcept;

@@ -13,20 +13,15 @@ namespace {
 struct Line {
   Line(Channel& channel, Side side)
       : outgoing(side == Side::coupler ? channel.command_posted : channel.answer_posted),
-        sent(side == Side::coupler ? channel.commands : channel.answers),
-        incoming(side == Side::coupler ? channel.answer_posted : channel.command_posted),
-        received(side == Side::coupler ? channel.answers : channel.commands) {}
-  void hand_over() const { post(outgoing, sent); }
+        incoming(side == Side::coupler ? channel.answer_posted : channel.command_posted) {}
+  void hand_over() const { post(outgoing); }
   void take(const LookAround& look_around) const {
     wait(incoming, look_around);
-    (void)load(received);  // acquires what the other side wrote before it posted
-    look_around(0);        // a post can also mean that the other side gave up
+    look_around(0);  // a post can also mean that the other side gave up
   }
 
-  sem_t& outgoing;
-  std::uint64_t& sent;
-  sem_t& incoming;
-  std::uint64_t& received;
+  Signal& outgoing;
+  Signal& incoming;
 };
 
 }  // namespace

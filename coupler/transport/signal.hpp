@@ -1,9 +1,8 @@
 #pragma once
 
-#include <semaphore.h>
-
 #include <atomic>
-#include <cstdint>
+
+#include "coupler/transport/layout.hpp"
 
 /// Waiting until the other side has done its part. Docs: docs/coupling.md, "What a window costs".
 namespace talus::coupler::transport {
@@ -20,14 +19,14 @@ inline constexpr double slice_seconds = 0.05;
 /// True when posted, false after a slice. Sleeps, but for a moment before in which it offers the core to
 /// others (`YieldingWait` in signal.cpp). Uses the monotonic clock: setting the machine's time does not
 /// lengthen a wait.
-bool wait_slice(sem_t& semaphore) noexcept;
+bool wait_slice(Signal& signal) noexcept;
 
-/// Sleeps until `semaphore` is posted. `look_around(seconds)` is called after every slice with the time slept
+/// Sleeps until `signal` is posted. `look_around(seconds)` is called after every slice with the time slept
 /// so far; it throws to give up. Time counts in slices slept, so that a process that was stopped (Ctrl-Z)
 /// does not count its pause.
 template <class LookAround>
-void wait(sem_t& semaphore, LookAround&& look_around) {
-  for (int slices = 1; !wait_slice(semaphore); ++slices) look_around(slices * slice_seconds);
+void wait(Signal& signal, LookAround&& look_around) {
+  for (int slices = 1; !wait_slice(signal); ++slices) look_around(slices * slice_seconds);
 }
 
 template <class T>
@@ -39,6 +38,6 @@ void store(T& shared, T value) noexcept {
   std::atomic_ref<T>(shared).store(value, std::memory_order_release);
 }
 /// Publishes everything written before it, then wakes the other side.
-void post(sem_t& semaphore, std::uint64_t& counter) noexcept;
+void post(Signal& signal) noexcept;
 
 }  // namespace talus::coupler::transport

@@ -116,11 +116,11 @@ struct Present {
 /// The values of the interface's nodes, in their order.
 void gather(const std::vector<Index>& nodes, std::span<const double> from, std::span<double> to) {
   for (std::size_t i = 0; i < nodes.size(); ++i)
-    std::copy_n(&from[3 * static_cast<std::size_t>(nodes[i])], 3, &to[3 * i]);
+    Vector3::Map(&to[3 * i]) = Vector3::Map(&from[3 * static_cast<std::size_t>(nodes[i])]);
 }
 
 void publish_motion(Integrator& integrator, const coupler::StructureFields& fields, const Present& present) {
-  const auto& nodes = integrator.interface().nodes;
+  const auto& nodes = integrator.interface().nodes();
   gather(nodes, integrator.displacement(), fields.displacement);
   gather(nodes, integrator.velocity(), fields.velocity);
   if (!fields.free_velocity.empty())
@@ -134,7 +134,7 @@ void obey(const coupler::Command& command, Structure& structure, coupler::Partic
   Present present{command.time, command.length};
   switch (command.action) {
     case Action::advance:
-      std::ranges::copy(fields.force, integrator.interface().force.begin());
+      integrator.interface().set(fields.force);
       integrator.advance(command.time, command.length);
       present.time = command.time + command.length;
       break;

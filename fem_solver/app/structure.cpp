@@ -121,8 +121,7 @@ void Structure::check_step(const StructureScene& scene) const {
 }
 
 void Structure::make_interface(const std::vector<Index>& nodes) {
-  integrator_->interface().nodes = nodes;
-  integrator_->interface().force.assign(3 * nodes.size(), 0.0);
+  integrator_->interface() = InterfaceForce(nodes);
 }
 
 void Structure::write_checkpoint(const std::filesystem::path& path) {

@@ -34,15 +34,15 @@ Assembly::Assembly(const Model& model) : model_(model) {
   }
   slots_.resize(3 * slots);
 
-  incidence_begin_.assign(static_cast<std::size_t>(model.nodes()) + 1, 0);
+  const auto run_of = [](Index node, int sign) { return 2 * static_cast<std::size_t>(node) + (sign < 0); };
+  incidence_begin_.assign(2 * static_cast<std::size_t>(model.nodes()) + 1, 0);
   for_each_incidence(model, slot_begin_,
-                     [&](Index node, Index, int) { ++incidence_begin_[static_cast<std::size_t>(node) + 1]; });
+                     [&](Index node, Index, int sign) { ++incidence_begin_[run_of(node, sign) + 1]; });
   std::partial_sum(incidence_begin_.begin(), incidence_begin_.end(), incidence_begin_.begin());
   incidence_.resize(static_cast<std::size_t>(incidence_begin_.back()));
   std::vector<Index> next(incidence_begin_.begin(), incidence_begin_.end() - 1);
   for_each_incidence(model, slot_begin_, [&](Index node, Index slot, int sign) {
-    incidence_[static_cast<std::size_t>(next[static_cast<std::size_t>(node)]++)] =
-        2 * slot + (sign < 0 ? 1 : 0);
+    incidence_[static_cast<std::size_t>(next[run_of(node, sign)]++)] = 3 * slot;
   });
 }
 
@@ -95,19 +95,11 @@ double Assembly::largest_element_force() const noexcept {
 
 void Assembly::gather(double factor, std::span<double> sums) const noexcept {
   core::parallel_for(model_.nodes(), [&](std::int64_t node) {
-    double x = 0, y = 0, z = 0;
-    for (Index k = incidence_begin_[node]; k < incidence_begin_[node + 1]; ++k) {
-      const Index entry = incidence_[k];
-      const double sign = (entry & 1) ? -factor : factor;
-      const double* slot = &slots_[3 * static_cast<std::size_t>(entry >> 1)];
-      x += sign * slot[0];
-      y += sign * slot[1];
-      z += sign * slot[2];
-    }
-    double* sum = &sums[3 * static_cast<std::size_t>(node)];
-    sum[0] = x;
-    sum[1] = y;
-    sum[2] = z;
+    const Index* run = &incidence_begin_[2 * static_cast<std::size_t>(node)];
+    Vector3 sum = Vector3::Zero();
+    for (Index k = run[0]; k < run[1]; ++k) sum += Vector3::Map(&slots_[incidence_[k]]);
+    for (Index k = run[1]; k < run[2]; ++k) sum -= Vector3::Map(&slots_[incidence_[k]]);
+    Vector3::Map(&sums[3 * static_cast<std::size_t>(node)]) = factor * sum;
   });
 }
 

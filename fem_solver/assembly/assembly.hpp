@@ -37,8 +37,8 @@ class Assembly {
   const Model& model_;
   std::vector<std::size_t> slot_begin_;  ///< of each part
   std::vector<double> slots_;            ///< 3 a slot
-  std::vector<Index> incidence_begin_;   ///< of each node, and the end
-  std::vector<Index> incidence_;         ///< 2 slot + (1 where the node feels the slot negated)
+  std::vector<Index> incidence_begin_;  ///< of each node's slots, then of those it feels negated; and the end
+  std::vector<Index> incidence_;        ///< first value of the slot
 };
 
 }  // namespace talus::fem

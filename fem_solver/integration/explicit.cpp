@@ -74,8 +74,8 @@ void ExplicitSolver::step(double time, double step) {
 
 void ExplicitSolver::evaluate_forces(double time) noexcept {
   evaluate_own_forces(time, state_.force);
-  for (std::size_t k = 0; k < interface_.nodes.size(); ++k)
-    Vector3::Map(&state_.force[3 * interface_.nodes[k]]) += Vector3::Map(&interface_.force[3 * k]);
+  interface_.for_each(
+      [&](Index node, const auto& on_node) { Vector3::Map(&state_.force[3 * node]) += on_node; });
 }
 
 void ExplicitSolver::evaluate_own_forces(double time, std::span<double> force) noexcept {
@@ -199,10 +199,9 @@ ExplicitSolver::Powers ExplicitSolver::powers(double time) const noexcept {
     for (std::size_t c = 0; c < 3; ++c)
       power[by_supports] += state_.reactions[offset + c] * state_.velocity[dof + c];
   });
-  for (std::size_t k = 0; k < interface_.nodes.size(); ++k) {
-    const auto velocity = Vector3::Map(&state_.velocity[3 * interface_.nodes[k]]);
-    power[by_interface] += Vector3::Map(&interface_.force[3 * k]).dot(velocity);
-  }
+  interface_.for_each([&](Index node, const auto& on_node) {
+    power[by_interface] += on_node.dot(Vector3::Map(&state_.velocity[3 * node]));
+  });
   for (std::size_t i = 0; i < damping_force_.size(); ++i)
     power[by_stiffness_damping] += damping_force_[i] * state_.velocity[i];
   return power;

@@ -16,8 +16,7 @@ void add_external_force(const Model& model, const InterfaceForce& interface, con
     const Vector3 nodal = load_factor(load.history, when) * load.force;
     for (const Index node : load.nodes) Vector3::Map(&force[3 * node]) += nodal;
   }
-  for (std::size_t k = 0; k < interface.nodes.size(); ++k)
-    Vector3::Map(&force[3 * interface.nodes[k]]) += Vector3::Map(&interface.force[3 * k]);
+  interface.for_each([&](Index node, const auto& on_node) { Vector3::Map(&force[3 * node]) += on_node; });
 }
 
 void add_works(const Model& model, const InterfaceForce& interface, const LoadSpan& span,
@@ -33,8 +32,7 @@ void add_works(const Model& model, const InterfaceForce& interface, const LoadSp
         0.5 * (load_factor(load.history, span.before) + load_factor(load.history, span.after));
     for (const Index node : load.nodes) works.loads += factor * load.force.dot(move_of(node));
   }
-  for (std::size_t k = 0; k < interface.nodes.size(); ++k)
-    works.interface += Vector3::Map(&interface.force[3 * k]).dot(move_of(interface.nodes[k]));
+  interface.for_each([&](Index node, const auto& on_node) { works.interface += on_node.dot(move_of(node)); });
 }
 
 void place_supports(const Model& model, const LoadTime& when, std::span<double> displacement) noexcept {

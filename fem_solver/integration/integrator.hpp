@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/output/checkpoint.hpp"
+#include "fem_solver/integration/interface_force.hpp"
 #include "fem_solver/model/model.hpp"
 
 namespace talus::fem {
@@ -19,12 +20,6 @@ struct EnergyBalance {
   double supports = 0;             ///< supplied by prescribed motion
   double interface = 0;            ///< supplied through the interface
   double slides = 0;               ///< taken by the constraints of sliders, whose error it is
-};
-
-/// Nodes that receive forces from outside, set before every window. Empty in a run on its own.
-struct InterfaceForce {
-  std::vector<Index> nodes;
-  std::vector<double> force;  ///< N; 3 a node
 };
 
 /// A way of going through time, as a program sees it: called once a window, never inside a step.

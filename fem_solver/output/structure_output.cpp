@@ -67,7 +67,7 @@ void StructureOutput::choose_ledger_lines() {
   if (!model_.loads.empty()) line("loads", LedgerKind::supplied, &EnergyBalance::loads);
   if (std::ranges::any_of(model_.supports, &Support::moves))
     line("moving_supports", LedgerKind::supplied, &EnergyBalance::supports);
-  if (!integrator_.interface().nodes.empty())
+  if (!integrator_.interface().nodes().empty())
     line("interface", LedgerKind::supplied, &EnergyBalance::interface);
 }
 

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <algorithm>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "core/vector3.hpp"
+#include "fem_solver/model/index.hpp"
+
+namespace talus::fem {
+
+/// The forces that come through the interface, set before every window. Few nodes are touched at a time;
+/// steps look at these alone.
+class InterfaceForce {
+ public:
+  InterfaceForce() = default;
+  /// @param nodes the structure's nodes that can be touched; none in a run on its own
+  explicit InterfaceForce(std::vector<Index> nodes) : nodes_(std::move(nodes)), force_(3 * nodes_.size()) {
+    touched_.reserve(nodes_.size());
+  }
+
+  const std::vector<Index>& nodes() const noexcept { return nodes_; }
+
+  /// @param force N, 3 for each of nodes() in turn
+  void set(std::span<const double> force) noexcept {
+    std::ranges::copy(force, force_.begin());
+    touched_.clear();
+    for (std::size_t k = 0; k < nodes_.size(); ++k)
+      if (force_[3 * k] != 0 || force_[3 * k + 1] != 0 || force_[3 * k + 2] != 0) touched_.push_back(k);
+  }
+
+  /// visit(node, force in N) for every node whose force is not zero.
+  template <class Visit>
+  void for_each(const Visit& visit) const {
+    for (const std::size_t k : touched_) visit(nodes_[k], core::Vector3::Map(&force_[3 * k]));
+  }
+
+ private:
+  std::vector<Index> nodes_;
+  std::vector<double> force_;         ///< N
+  std::vector<std::size_t> touched_;  ///< places in nodes_
+};
+
+}  // namespace talus::fem
