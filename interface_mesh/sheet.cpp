@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <tuple>
+#include <utility>
 
 #include "interface_mesh/points.hpp"
 #include "interface_mesh/square_net.hpp"
@@ -25,15 +27,41 @@ bool is_divided_in_rows(const Sheet& sheet) {
          sheet.edge_nodes.empty();
 }
 
-Net divided_in_rows(const Sheet& sheet) {
+/// The nodes and node sets of a rectangle's cells, without cells yet.
+Net grid(const Sheet& sheet, std::array<Index, 2> cells) {
   const Vector2 size = sheet.panel.outline[2];
-  const std::array openings{divisions(size.x(), sheet.element_size), divisions(size.y(), sheet.element_size)};
   Net net = generate(SquareNet{.corner = sheet.panel.origin,
                                .along = sheet.panel.along,
                                .across = sheet.panel.across,
                                .lengths = {size.x(), size.y()},
-                               .openings = openings});
+                               .openings = cells});
   net.surface.segments.clear();
+  return net;
+}
+
+Net crossed(const Sheet& sheet) {
+  const auto [columns, rows] = sheet.crossed_cells;
+  Net net = grid(sheet, sheet.crossed_cells);
+  const Vector2 size = sheet.panel.outline[2];
+  for (Index j = 0; j < rows; ++j)
+    for (Index i = 0; i < columns; ++i) {
+      const Index a = j * (columns + 1) + i, b = a + 1, c = b + columns + 1, d = c - 1;
+      const Index centre = net.surface.node_count();
+      append(net.surface.positions,
+             sheet.panel.place({size.x() * (i + 0.5) / columns, size.y() * (j + 0.5) / rows}));
+      for (const auto& [from, to] : {std::pair(a, b), std::pair(b, c), std::pair(c, d), std::pair(d, a)})
+        net.surface.triangles.push_back({from, to, centre});
+    }
+  auto& all = std::ranges::find(net.node_sets, "nodes", &NodeSet::name)->nodes;
+  all.resize(static_cast<std::size_t>(net.surface.node_count()));
+  std::iota(all.begin(), all.end(), 0);
+  return net;
+}
+
+Net divided_in_rows(const Sheet& sheet) {
+  const Vector2 size = sheet.panel.outline[2];
+  const std::array openings{divisions(size.x(), sheet.element_size), divisions(size.y(), sheet.element_size)};
+  Net net = grid(sheet, openings);
   const Index row = openings[0] + 1;
   for (Index j = 0; j < openings[1]; ++j)
     for (Index i = 0; i < openings[0]; ++i) {
@@ -97,7 +125,9 @@ Polygon inner_points(const Polygon& outline, double size) {
 
 Net generate(const Sheet& sheet) {
   Net net;
-  if (is_divided_in_rows(sheet)) {
+  if (sheet.crossed_cells[0] > 0) {
+    net = crossed(sheet);
+  } else if (is_divided_in_rows(sheet)) {
     net = divided_in_rows(sheet);
   } else {
     const auto edge = outline_nodes(sheet);

@@ -12,8 +12,9 @@ namespace talus::fem {
 
 namespace {
 
-constexpr double most_coupling = 0.95;
-constexpr double least_shear = 1e-3;
+/// What a membrane that stands for a mechanism gets of stiffness, as a part of the net's: an impact at a tenth
+/// of the span's sag strains the mechanism by tenths, so that a hundredth would already be felt.
+constexpr double least_share = 1e-3;
 constexpr int steps = 5;
 
 struct Sample {
@@ -63,17 +64,18 @@ Stiffness least_squares(const std::vector<Sample>& samples, const PlaneStress<do
 
 void make_positive_definite(Stiffness& stiffness, std::vector<std::string>& remarks) {
   const double scale = std::sqrt(stiffness.xx * stiffness.yy);
+  const double most_coupling = std::sqrt(1 - least_share);
   if (stiffness.xy > most_coupling * scale) {
     remarks.push_back(
-        fmt::format("the net is a mechanism: C12 is {:.3g} of sqrt(C11 C22) and was reduced to {:.3g} of it",
+        fmt::format("the net is a mechanism: C12 is {:.5g} of sqrt(C11 C22) and was reduced to {:.5g} of it",
                     stiffness.xy / scale, most_coupling));
     stiffness.xy = most_coupling * scale;
   }
-  if (stiffness.shear < least_shear * scale) {
+  if (stiffness.shear < least_share * scale) {
     remarks.push_back(
         fmt::format("the net hardly resists shear: G was raised from {:.3g} to {:.3g} of sqrt(C11 C22)",
-                    stiffness.shear / scale, least_shear));
-    stiffness.shear = least_shear * scale;
+                    stiffness.shear / scale, least_share));
+    stiffness.shear = least_share * scale;
   }
 }
 

@@ -29,7 +29,8 @@ struct HomogenisedSheet {
 ///     E_x = C11 (1 - C12^2/(C11 C22)),  E_y = C22 (1 - C12^2/(C11 C22)),  v_xy = C12/C11,  G = C33
 /// to the stresses, in the notation of OrthotropicSheet. Held edges are what net panels are tested with (ISO
 /// 17746). A net of cables can be a mechanism, which no positive definite law is: then C12 is held below
-/// 0.95 sqrt(C11 C22) and G above a thousandth of sqrt(C11 C22), and a remark says so.
+/// sqrt(0.999 C11 C22), which leaves a thousandth of C11 and C22 as E_x and E_y, and G above a thousandth of
+/// sqrt(C11 C22), and a remark says so.
 /// @throws core::ConfigError if the net carries nothing along an axis up to this strain
 HomogenisedSheet fit_sheet(const PeriodicNet& net, const FitOptions& options);
 

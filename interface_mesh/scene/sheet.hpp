@@ -9,9 +9,10 @@ namespace talus::mesh {
 /// `sheet:` a panel filled with triangles.
 struct SheetScene {
   PanelScene panel;
-  double element_size = 0;                ///< m
-  std::optional<double> edge_spacing;     ///< m; absent: the element size
-  std::vector<core::Vector3> edge_nodes;  ///< m; on the outline
+  std::optional<double> element_size;               ///< m
+  std::optional<std::vector<double>> crossed_cell;  ///< m; along and across
+  std::optional<double> edge_spacing;               ///< m; absent: the element size
+  std::vector<core::Vector3> edge_nodes;            ///< m; on the outline
 };
 void describe(core::Fields& fields, SheetScene& sheet);
 

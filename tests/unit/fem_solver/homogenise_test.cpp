@@ -64,6 +64,10 @@ TEST_CASE("a chain-link net has the stiffness of its wires' directions: sums of 
   CHECK(sheet.moduli.shear_modulus == Approx(scale * s * s * c * c).epsilon(1e-6));
   REQUIRE(sheet.remarks.size() == 1);
   CHECK(sheet.remarks[0].find("the net is a mechanism: C12 is 1 of") == 0);
+  // What the mechanism is given: a thousandth of the stiffness across it, C11 = scale s^4 and C22 = scale
+  // c^4.
+  CHECK(sheet.moduli.youngs_modulus_x == Approx(1e-3 * scale * s * s * s * s).epsilon(1e-3));
+  CHECK(sheet.moduli.youngs_modulus_y == Approx(1e-3 * scale * c * c * c * c).epsilon(1e-3));
 }
 
 TEST_CASE("the membrane force of a net is the derivative of its energy") {

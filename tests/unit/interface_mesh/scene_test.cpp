@@ -144,3 +144,19 @@ TEST_CASE("an element size that would make too many triangles is refused before 
   CHECK(complaints_about<SheetScene>("section: {element_size: 1 um, corner: [0, 0, 0], size: [3, 2]}")
             .find("gives about 1e+13 triangles") != std::string::npos);
 }
+
+TEST_CASE("cells cut by both diagonals must divide a rectangle, and exclude every other way of dividing it") {
+  const std::string start = "section: {corner: [0, 0, 0], size: [3, 2], crossed_cell: ";
+  SheetScene scene;
+  CHECK(complaints_about(start + "[0.3, 0.5]}", scene) == "");
+  CHECK(mesh::generate(scene).surface.triangles.size() == 4 * 10 * 4);
+  CHECK(complaints_about<SheetScene>(start + "[0.3, 0.45]}") ==
+        "scene.yaml:1:58: section.crossed_cell: must divide the size along and across");
+  CHECK(complaints_about<SheetScene>(start + "[0.3]}")
+            .find("section.crossed_cell: needs two lengths, but has 1") != std::string::npos);
+  CHECK(complaints_about<SheetScene>(start + "[0.3, 0.5], element_size: 1}")
+            .find("section.crossed_cell: contradicts element_size") != std::string::npos);
+  CHECK(complaints_about<SheetScene>("section: {corner: [0, 0, 0], size: [3, 2]}")
+            .find("section: needs `element_size` or `crossed_cell`: how large are the triangles?") !=
+        std::string::npos);
+}

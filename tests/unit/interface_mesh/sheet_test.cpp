@@ -132,6 +132,30 @@ TEST_CASE("a rectangle left to the element size is divided in rows with alternat
   CHECK(diagonals[0] == diagonals[1]);
 }
 
+TEST_CASE(
+    "cells cut by both diagonals lay edges of triangles along the wires of a chain-link net, at each node") {
+  const double x = 0.097, y = 0.168;
+  const auto panel =
+      mesh::make_panel(mesh::Rectangle{Vector3::Zero(), Vector3::UnitX(), Vector3::UnitY(), 10 * x, 6 * y});
+  const auto net = mesh::generate(mesh::Sheet{.panel = panel, .crossed_cells = {5, 3}});
+  CHECK(net.surface.node_count() == 6 * 4 + 5 * 3);
+  CHECK(net.find_set("nodes")->nodes.size() == 6 * 4 + 5 * 3);
+  CHECK(net.find_set("edge_east")->nodes.size() == 4);
+  CHECK(net.surface.triangles.size() == 4 * 5 * 3);
+  CHECK(mesh::faults(net.surface).empty());
+  CHECK(area(net.surface, Vector3::UnitZ()) == Approx(60 * x * y).epsilon(1e-14));
+  // Both families of wires pass through each triangle: one of its edges along either.
+  for (const auto& [a, b, c] : net.surface.triangles) {
+    std::array<int, 2> along_wires{};
+    for (const auto& [i, j] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)}) {
+      const Vector3 edge = mesh::point(net.surface.positions, j) - mesh::point(net.surface.positions, i);
+      if (std::abs(edge.x() * y - edge.y() * x) < 1e-12) ++along_wires[0];
+      if (std::abs(edge.x() * y + edge.y() * x) < 1e-12) ++along_wires[1];
+    }
+    REQUIRE(along_wires == std::array{1, 1});
+  }
+}
+
 TEST_CASE("no point of a triangulation is inside the circle of a triangle on the same side of the outline") {
   const Polygon outline{{0, 0}, {4, 0}, {4, 4}, {0, 4}};
   mesh::Triangulation triangulation(outline);
