@@ -12,8 +12,8 @@ namespace talus::fem {
 
 namespace {
 
-/// What a membrane that stands for a mechanism gets of stiffness, as a part of the net's: an impact at a tenth
-/// of the span's sag strains the mechanism by tenths, so that a hundredth would already be felt.
+/// What a membrane that stands for a mechanism gets of stiffness, as a part of the net's: an impact at a
+/// tenth of the span's sag strains the mechanism by tenths, so that a hundredth would already be felt.
 constexpr double least_share = 1e-3;
 constexpr int steps = 5;
 
