@@ -103,7 +103,7 @@ coupler::Declaration declaration(Structure& structure, const StructuralScene& sc
     const StepBound& bound = structure.bounds().front();
     declared.limits.push_back({bound.name, bound.seconds, true, bound.reason});
   }
-  for (const auto& effect : structural_effects(scene.structure))
+  for (const auto& effect : structure.effects(scene.structure))
     declared.effects.push_back({effect.name, effect.present, effect.reason});
   return declared;
 }

@@ -53,6 +53,9 @@ void report_limits(const Structure& structure, core::ResultWriter& results) {
     core::log_info("step limit " + core::readable(bound.seconds, "s") + ": " + bound.name);
   }
   results.summary()["step_s"] = structure.step();
+  if (const AddedMass& added = structure.added_mass(); added.nodes > 0)
+    results.summary()["mass_scaling"] = {
+        {"added_kg", added.kilograms}, {"share", added.share}, {"nodes", added.nodes}};
 }
 
 /// All steps of the run. @returns whether it was not interrupted

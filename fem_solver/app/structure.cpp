@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "core/program/log.hpp"
 #include "core/units/units.hpp"
 #include "fem_solver/integration/explicit.hpp"
 #include "fem_solver/integration/implicit_solver.hpp"
@@ -23,6 +24,15 @@ bool is_explicit(const StructureScene& scene) {
          std::holds_alternative<ExplicitScene>(scene.method);
 }
 
+bool is_watched(const StructureScene& scene) {
+  return scene.unstable_step == StructureScene::UnstableStep::refused;
+}
+
+std::string description(const AddedMass& added) {
+  return fmt::format("mass scaling adds {:.4g} kg, {:.3g} % of the structure, at {} nodes", added.kilograms,
+                     100 * added.share, added.nodes);
+}
+
 std::vector<StepBound> bounds_of(const StructureScene& scene, Assembly& assembly) {
   if (!is_explicit(scene)) return {};
   return step_bounds(assembly, std::vector<double>(assembly.model().reference.size(), 0.0));
@@ -42,22 +52,28 @@ double chosen_step(const StructuralScene& scene, const std::vector<StepBound>& b
 struct MakeIntegrator {
   const Model& model;
   Assembly& assembly;
-  double step, end;  ///< s
+  struct Times {
+    double step = 0, end = 0;  ///< s
+    bool watched = true;       ///< an explicit run ends where its step becomes unstable
+  } times;
 
   using Made = std::unique_ptr<Integrator>;
-  Made operator()(std::monostate) const { return std::make_unique<ExplicitSolver>(model, assembly, step); }
+  Made operator()(std::monostate) const { return (*this)(ExplicitScene{}); }
   Made operator()(const ExplicitScene&) const {
-    return std::make_unique<ExplicitSolver>(model, assembly, step);
+    auto solver = std::make_unique<ExplicitSolver>(model, assembly, times.step);
+    if (times.watched) solver->watch_step();
+    return solver;
   }
   Made operator()(const ImplicitScene& scene) const {
     return std::make_unique<ImplicitSolver>(model, assembly,
-                                            ImplicitOptions{.step = step,
+                                            ImplicitOptions{.step = times.step,
                                                             .spectral_radius = scene.spectral_radius,
                                                             .newton = {.tolerance = scene.tolerance}});
   }
   Made operator()(const StaticScene& scene) const {
     return std::make_unique<StaticSolver>(
-        model, assembly, StaticOptions{.end = end, .step = step, .newton = {.tolerance = scene.tolerance}});
+        model, assembly,
+        StaticOptions{.end = times.end, .step = times.step, .newton = {.tolerance = scene.tolerance}});
   }
 };
 
@@ -80,7 +96,22 @@ std::string structure_schema() {
   });
 }
 
-std::vector<StructuralEffect> structural_effects(const StructureScene& scene) {
+Structure::Structure(const StructuralScene& scene)
+    : model_(build_model(scene.structure)),
+      added_mass_(scene.structure.mass_scaling ? scale_masses(model_, scene.structure.mass_scaling->step)
+                                               : AddedMass{}),
+      assembly_(model_),
+      bounds_(bounds_of(scene.structure, assembly_)),
+      step_(chosen_step(scene, bounds_)),
+      output_scene_(scene.output) {
+  check_step(scene.structure);
+  if (scene.structure.mass_scaling) core::log_warning(description(added_mass_));
+  integrator_ =
+      std::visit(MakeIntegrator{model_, assembly_, {step_, scene.time.end, is_watched(scene.structure)}},
+                 scene.structure.method);
+}
+
+std::vector<StructuralEffect> Structure::effects(const StructureScene& scene) const {
   const auto named = [](const char* effect, const char* key, bool present) {
     return StructuralEffect{effect, present,
                             fmt::format("structure.{} is {}", key, present ? "given" : "not given")};
@@ -97,21 +128,14 @@ std::vector<StructuralEffect> structural_effects(const StructureScene& scene) {
   effects.push_back(named("nodal loads", "loads", !scene.loads.empty()));
   effects.push_back(named("point masses", "point_masses", !scene.point_masses.empty()));
   effects.push_back(named("welded parts", "weld", scene.weld.has_value()));
+  effects.push_back(named("nodes that slide along ropes", "slides", !scene.slides.empty()));
+  effects.push_back(named("mass scaling", "mass_scaling", scene.mass_scaling.has_value()));
+  if (scene.mass_scaling) effects.back().reason += "; " + description(added_mass_);
   return effects;
 }
 
-Structure::Structure(const StructuralScene& scene)
-    : model_(build_model(scene.structure)),
-      assembly_(model_),
-      bounds_(bounds_of(scene.structure, assembly_)),
-      step_(chosen_step(scene, bounds_)),
-      output_scene_(scene.output) {
-  check_step(scene.structure);
-  integrator_ = std::visit(MakeIntegrator{model_, assembly_, step_, scene.time.end}, scene.structure.method);
-}
-
 void Structure::check_step(const StructureScene& scene) const {
-  if (scene.unstable_step == StructureScene::UnstableStep::allowed || bounds_.empty()) return;
+  if (!is_watched(scene) || bounds_.empty()) return;
   const StepBound& bound = bounds_.front();
   if (step_ <= bound.seconds) return;
   throw core::ConfigError(

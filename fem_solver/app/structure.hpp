@@ -9,6 +9,7 @@
 #include "core/scene/sections.hpp"
 #include "fem_solver/assembly/assembly.hpp"
 #include "fem_solver/integration/integrator.hpp"
+#include "fem_solver/integration/mass_scaling.hpp"
 #include "fem_solver/integration/step_limit.hpp"
 #include "fem_solver/output/structure_output.hpp"
 #include "fem_solver/scene/structure_scene.hpp"
@@ -32,7 +33,6 @@ struct StructuralEffect {
   bool present = false;
   std::string reason;
 };
-std::vector<StructuralEffect> structural_effects(const StructureScene& scene);
 
 /// A structure ready to run: everything that is made of the scene before time 0.
 class Structure {
@@ -54,11 +54,14 @@ class Structure {
 
   double step() const { return step_; }                             ///< s
   const std::vector<StepBound>& bounds() const { return bounds_; }  ///< the one that counts first
+  const AddedMass& added_mass() const { return added_mass_; }
+  std::vector<StructuralEffect> effects(const StructureScene& scene) const;
 
  private:
   void check_step(const StructureScene& scene) const;
 
   Model model_;
+  AddedMass added_mass_;  ///< by mass scaling
   Assembly assembly_;
   std::vector<StepBound> bounds_;
   double step_ = 0;

@@ -70,6 +70,8 @@ void ExplicitSolver::step(double time, double step) {
   state_.previous_step = step;
   ++state_.steps;
   if (!std::isfinite(activity)) report_blow_up(time + step);
+  if (watch_ && state_.steps % StepWatch::interval == 0)
+    watch_->look({state_.displacement, step, time + step, state_.steps, last_output_time});
 }
 
 void ExplicitSolver::evaluate_forces(double time) noexcept {

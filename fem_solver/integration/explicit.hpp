@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "fem_solver/assembly/assembly.hpp"
 #include "fem_solver/integration/integrator.hpp"
 #include "fem_solver/integration/slide_run.hpp"
+#include "fem_solver/integration/step_watch.hpp"
 #include "fem_solver/model/snapshot.hpp"
 
 namespace talus::fem {
@@ -78,6 +80,9 @@ class ExplicitSolver final : public Integrator {
   /// @throws NumericalError if a velocity stops being finite
   void step(double time, double step);
 
+  /// From here on the run ends with a NumericalError where the structure stiffens beyond its step.
+  void watch_step() { watch_.emplace(assembly_); }
+
   ExplicitState& state() { return state_; }
   const ExplicitState& state() const { return state_; }
 
@@ -110,6 +115,7 @@ class ExplicitSolver final : public Integrator {
   double longest_step_;
   ExplicitState state_;
   Snapshot<ExplicitState> saved_;
+  std::optional<StepWatch> watch_;
   std::vector<SlideRun> slides_;         ///< of the model's constrained slides
   std::vector<double> velocity_before_;  ///< m/s; of the step in progress, where there are slides
   std::vector<double> inverse_mass_;     ///< 1/kg; 0 for a node without mass

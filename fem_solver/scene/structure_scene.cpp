@@ -34,6 +34,14 @@ void describe(core::Fields& fields, WeldScene& weld) {
 
 void describe(core::Fields&, ExplicitScene&) {}
 
+void describe(core::Fields& fields, MassScalingScene& scaling) {
+  fields.required(
+      "step", scaling.step,
+      {.unit = "s",
+       .range = core::positive,
+       .help = "light nodes get the mass that makes this step stable; the added mass is reported"});
+}
+
 void describe(core::Fields& fields, ImplicitScene& method) {
   fields.with_default(
       "spectral_radius", method.spectral_radius,
@@ -73,8 +81,13 @@ void describe(core::Fields& fields, StructureScene& structure) {
   const bool constrained = std::ranges::any_of(structure.slides, [](const NamedSlide& slide) {
     return std::holds_alternative<ConstraintSlideScene>(slide.second.method);
   });
-  fields.rule(!constrained || structure.method.index() <= explicit_method, "slides",
+  const bool is_explicit = structure.method.index() <= explicit_method;
+  fields.rule(!constrained || is_explicit, "slides",
               "hold by constraints in explicit runs only; take `penalty`, or a `sliding_cable` for the rope");
+  fields.section("mass_scaling", structure.mass_scaling,
+                 "mass on light nodes, for a longer explicit step at the price of slower waves");
+  fields.rule(!structure.mass_scaling || is_explicit, "mass_scaling",
+              "is for explicit runs: others have no limit");
   fields.optional("step", structure.step,
                   {.unit = "s",
                    .range = core::positive,

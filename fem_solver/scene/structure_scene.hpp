@@ -38,6 +38,12 @@ void describe(core::Fields& fields, WeldScene& weld);
 struct ExplicitScene {};
 void describe(core::Fields& fields, ExplicitScene& method);
 
+/// Mass on light nodes, for a longer explicit step.
+struct MassScalingScene {
+  double step = 0;  ///< s
+};
+void describe(core::Fields& fields, MassScalingScene& scaling);
+
 /// Generalised-alpha method.
 struct ImplicitScene {
   double spectral_radius = 0.8;
@@ -67,6 +73,7 @@ struct StructureScene {
   std::vector<PointMassScene> point_masses;
   std::vector<InitialVelocityScene> initial_velocities;
   MethodScene method;
+  std::optional<MassScalingScene> mass_scaling;
   std::optional<double> step;  ///< s
   enum class UnstableStep { refused, allowed } unstable_step = UnstableStep::refused;
 };

@@ -69,6 +69,15 @@ TEST_CASE("a step above the limit is refused unless the scene insists") {
   CHECK(complaint(line + "  step: 1 ms\n  unstable_step: allowed\n") == "no complaint");
 }
 
+TEST_CASE("mass scaling of a scene makes its step stable, and other methods than explicit refuse it") {
+  const std::string scaled = line + "  step: 1 ms\n  mass_scaling: {step: 1.1 ms}\n";
+  const Structure structure(scene(scaled));
+  CHECK(structure.bounds().front().seconds >= 1.1e-3 * (1 - 1e-9));
+  CHECK(structure.added_mass().nodes == 5);
+  CHECK_THAT(complaint(scaled + "  static: {}\n"), Catch::Contains("structure.mass_scaling"));
+  CHECK_THAT(complaint(line + "  mass_scaling: {step: 0}\n"), Catch::Contains("structure.mass_scaling.step"));
+}
+
 TEST_CASE("bad structures get complaints that name the entity and where it is") {
   const auto check = [](const std::string& structure, const std::string& expected) {
     CHECK_THAT(complaint(structure), Catch::Contains(expected));

@@ -3,8 +3,13 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
+#include <numeric>
+#include <random>
 
+#include "core/errors.hpp"
 #include "fem_solver/integration/explicit.hpp"
+#include "fem_solver/integration/mass_scaling.hpp"
+#include "fem_solver/integration/row_sums.hpp"
 #include "tests/support/structures.hpp"
 
 namespace {
@@ -55,6 +60,68 @@ TEST_CASE("a slider held by a spring limits the step as it does where it passes 
   model.node_masses[5] = slider_mass;
   const double expected = std::sqrt(alpha * (1 / slider_mass + 1 / model.node_masses[2]));
   CHECK(frequency_at_rest(model) == Approx(expected).epsilon(1e-6));
+}
+
+TEST_CASE("row sums bound the highest frequency of a net at random states and give that of a chain") {
+  const double chain = frequency_at_rest(tests::chain<BarBatch>(bar, 2, 16));
+  CHECK(frequency_bound(tests::chain<BarBatch>(bar, 2, 16), std::vector<double>(51, 0.0)).squared ==
+        Approx(chain * chain).epsilon(1e-6));
+  Model net = tests::net<BarBatch>(bar, 0.1, 7);
+  Assembly assembly(net);
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> move(-0.03, 0.03);  // of 0.1 m: strains of tens of percent
+  for (int trial = 0; trial < 20; ++trial) {
+    std::vector<double> displacement(net.reference.size());
+    for (double& u : displacement) u = move(random);
+    const double w = largest_frequency(assembly, displacement);
+    const double bound = frequency_bound(net, displacement).squared;
+    CHECK(bound > 0.99 * w * w);  // w has its residual added
+    CHECK(bound < 4 * w * w);
+  }
+}
+
+TEST_CASE(
+    "a run that stretches a rope ends where its step becomes unstable, and says what the limit fell to") {
+  // The rope's end is led away slowly: e = ((1 + x/2)^2 - 1)/2, stiffness 1 + 3 e times that at the start.
+  const auto stretch_reached = [](double share_of_limit) {
+    Model model = tests::chain<BarBatch>(bar, 2, 4);
+    model.supports = {tests::fixed({0}), tests::fixed({4})};
+    model.supports[1].displacement = Vector3(1, 0, 0);
+    model.supports[1].history = {{{0.0, 0.0}, {1.0, 1.0}}};
+    Assembly assembly(model);
+    const double step = share_of_limit * stable_step(frequency_at_rest(model), model.damping);
+    ExplicitSolver solver(model, assembly, step);
+    solver.watch_step();
+    try {
+      for (double time = 0; time < 0.5; time += step) solver.step(time, step);
+    } catch (const talus::core::NumericalError& error) {
+      CHECK_THAT(error.what(), Catch::Contains("above the limit of stability, which fell to") &&
+                                   Catch::Contains("node") && Catch::Contains("of chain at"));
+      CHECK(error.details().value < step);
+      return solver.displacement()[12];
+    }
+    return 1.0;
+  };
+  const double e = (1 / 0.81 - 1) / 3, expected = 2 * (std::sqrt(1 + 2 * e) - 1);
+  CHECK(stretch_reached(0.9) == Approx(expected).epsilon(0.05));  // waves of the pull run through the rope
+  CHECK(stretch_reached(0.5) == 1.0);
+}
+
+TEST_CASE(
+    "mass scaling makes the step that it is asked for stable and adds nothing where that is stable anyway") {
+  for (const double damping : {0.0, 1e-4}) {
+    Model model = tests::net<CableBatch>(string, 0.1, 9);
+    model.damping.stiffness = damping;
+    const double mass = std::accumulate(model.node_masses.begin(), model.node_masses.end(), 0.0);
+    const double limit = stable_step(frequency_at_rest(model), model.damping);
+    CHECK(scale_masses(model, 0.5 * limit).nodes == 0);
+    const AddedMass added = scale_masses(model, 3 * limit);
+    CHECK(added.nodes == 49);  // all that are free
+    CHECK(std::accumulate(model.node_masses.begin(), model.node_masses.end(), 0.0) ==
+          Approx(mass + added.kilograms));
+    CHECK(added.share == Approx(added.kilograms / mass));
+    CHECK(stable_step(frequency_at_rest(model), model.damping) > 3 * limit * (1 - 1e-9));
+  }
 }
 
 TEST_CASE("a free oscillator is stable just below the limit and blows up just above it") {
