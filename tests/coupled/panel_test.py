@@ -60,11 +60,12 @@ class RockOnPanel(unittest.TestCase):
         self.assertLess(abs(field - net), abs(plain - net))
 
     def test_three_ways_of_sliding_give_one_deflection(self):
-        # The polygon of the rope is another one, and springs leave a gap of centimetres.
+        # The polygon of the rope is another one: 5 %. Springs leave a gap on top of it.
         net = self.deflection("net_sliding_edges")
         for scene in OTHER_WAYS_TO_SLIDE:
             with self.subTest(scene=scene):
-                self.assertAlmostEqual(self.deflection(scene), net, delta=0.05 * net)
+                gap = max(self.runs[scene].column("edge_south.gap_max_m"))
+                self.assertAlmostEqual(self.deflection(scene), net, delta=0.05 * net + gap)
 
     def test_springs_leave_the_gap_of_their_force_and_constraints_none(self):
         springs, constraints = (self.runs[scene] for scene in OTHER_WAYS_TO_SLIDE)
