@@ -1,0 +1,3 @@
+add_executable(bench_panel_structure panel_structure.cpp)
+talus_settings(bench_panel_structure)
+target_link_libraries(bench_panel_structure PRIVATE talus_fem_app fmt::fmt)
