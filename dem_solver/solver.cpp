@@ -115,8 +115,12 @@ double ParticleSolver::largest_motion() const noexcept {
 }
 
 void ParticleSolver::clear_loads() noexcept {
-  std::ranges::fill(spheres_.force, Row{});
-  std::ranges::fill(spheres_.torque, Row{});
+  const bool turn = spheres_.rotates();
+#pragma omp parallel for schedule(static) num_threads(threads_) if (threads_ > 1)
+  for (Index i = 0; i < spheres_.size(); ++i) {
+    spheres_.force[i] = {};
+    if (turn) spheres_.torque[i] = {};
+  }
 }
 
 ContactStage ParticleSolver::contact_stage() noexcept {

@@ -1,32 +1,53 @@
 #include "dem_solver/boundary/planes.hpp"
 
+#include <algorithm>
+#include <tuple>
+
 namespace talus::dem {
+
+namespace {
+
+/// Entries worth handing to a thread.
+constexpr Index chunk_length = 256;
+
+/// A contact that touched at the last evaluation, its sphere in the new place.
+struct OldContact {
+  Index sphere = 0, plane = 0, slot = 0;
+};
+
+std::vector<OldContact> old_contacts(std::span<const PlaneList::Entry> entries,
+                                     std::span<const std::uint8_t> touched,
+                                     std::span<const Index> new_place) {
+  std::vector<OldContact> old;
+  for (std::size_t slot = 0; slot < entries.size(); ++slot)
+    if (touched[slot])
+      old.push_back({new_place[entries[slot].sphere], entries[slot].plane, static_cast<Index>(slot)});
+  std::ranges::sort(old, {}, [](const OldContact& c) { return std::tuple(c.sphere, c.plane); });
+  return old;
+}
+
+}  // namespace
 
 std::vector<SlotMove> PlaneList::rebuild(std::span<const Plane> planes, const Spheres& spheres,
                                          std::span<const Index> new_place, double skin) {
-  // slot_of[plane][sphere] would be large and thin; one plane at a time it is a single array.
-  std::vector<Index> old_slot(static_cast<std::size_t>(spheres.size()));
-  std::vector<Entry> entries;
-  std::vector<Index> first{0};
-  std::vector<std::uint8_t> touched;
+  const std::vector<OldContact> old = old_contacts(entries_, touched_, new_place);
+  auto next = old.begin();
   std::vector<SlotMove> moves;
-  for (std::size_t k = 0; k < planes.size(); ++k) {
-    old_slot.assign(old_slot.size(), -1);
-    if (k + 1 < first_.size())
-      for (Index slot = first_[k]; slot < first_[k + 1]; ++slot)
-        if (touched_[slot]) old_slot[new_place[entries_[slot].sphere]] = slot;
-    for (Index i = 0; i < spheres.size(); ++i) {
-      const Row& p = spheres.position[i];
-      if (height_above(planes[k], p) >= p.w + skin && old_slot[i] < 0) continue;
-      if (old_slot[i] >= 0) moves.push_back({old_slot[i], static_cast<Index>(entries.size())});
-      entries.push_back({i, static_cast<Index>(k)});
-      touched.push_back(old_slot[i] >= 0);
+  entries_.clear();
+  touched_.clear();
+  chunk_first_.assign(1, 0);
+  for (Index i = 0; i < spheres.size(); ++i) {
+    const Row& p = spheres.position[i];
+    for (Index k = 0; k < static_cast<Index>(planes.size()); ++k) {
+      const bool touched = next != old.end() && next->sphere == i && next->plane == k;
+      if (!touched && height_above(planes[k], p) >= p.w + skin) continue;
+      if (touched) moves.push_back({(next++)->slot, slots()});
+      entries_.push_back({i, k});
+      touched_.push_back(touched);
     }
-    first.push_back(static_cast<Index>(entries.size()));
+    if (slots() - chunk_first_.back() >= chunk_length) chunk_first_.push_back(slots());
   }
-  entries_.swap(entries);
-  first_.swap(first);
-  touched_.swap(touched);
+  if (slots() > chunk_first_.back()) chunk_first_.push_back(slots());
   return moves;
 }
 

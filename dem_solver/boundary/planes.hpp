@@ -18,7 +18,8 @@ struct Plane {
   Index material = 0;
 };
 
-/// The spheres near each plane; a sphere and a plane share a slot for their contact's memory.
+/// The spheres near planes, sphere after sphere and plane after plane; a sphere and a plane share a slot for
+/// their contact's memory.
 class PlaneList {
  public:
   struct Entry {
@@ -31,21 +32,23 @@ class PlaneList {
                                 std::span<const Index> new_place, double skin);
 
   std::span<const Entry> entries() const noexcept { return entries_; }
-  /// Entries of plane k: first()[k] .. first()[k + 1]; a sphere stands there once.
-  std::span<const Index> first() const noexcept { return first_; }
+  /// Entries of chunk c: chunk_first()[c] .. chunk_first()[c + 1]. A sphere's entries are in one chunk;
+  /// chunks don't depend on the number of threads.
+  std::span<const Index> chunk_first() const noexcept { return chunk_first_; }
+  Index chunk_count() const noexcept { return static_cast<Index>(chunk_first_.size()) - 1; }
   std::span<std::uint8_t> touched() noexcept { return touched_; }
   Index slots() const noexcept { return static_cast<Index>(entries_.size()); }
 
   template <class Self, class Visitor>
   static void visit_state(Self& self, Visitor&& visit) {
     visit("entries", self.entries_);
-    visit("first", self.first_);
+    visit("chunk_first", self.chunk_first_);
     visit("touched", self.touched_);
   }
 
  private:
   std::vector<Entry> entries_;
-  std::vector<Index> first_{0};
+  std::vector<Index> chunk_first_{0};
   std::vector<std::uint8_t> touched_;
 };
 

@@ -10,49 +10,55 @@ namespace talus::dem {
 
 namespace {
 
-/// Spheres in the order of their cells; equal cells keep the present order.
+/// Enough blocks to share among threads; fewer have fewer edges, whose spheres two blocks read.
+constexpr Index most_blocks = 32;
+constexpr Index fewest_slabs_a_block = 2;  // so that every second block is out of reach
+
+/// Spheres in the order of blocks and, within a block, in the order of their cells; equal cells keep the
+/// present order.
 struct SpatialOrder {
-  std::vector<Index> order;       ///< order[new place] = old place
-  std::vector<Index> slab_first;  ///< in new places
+  std::vector<Index> order;        ///< order[new place] = old place
+  std::vector<Index> block_first;  ///< in new places
+  std::vector<Index> slab;         ///< of each old place
 };
 
 SpatialOrder spatial_order(const Spheres& spheres, double cell_size) {
   const CellGrid grid(spheres.position, cell_size);
+  const Index slabs = grid.slab_count(),
+              width = std::max(fewest_slabs_a_block, (slabs + most_blocks - 1) / most_blocks);
   std::vector<Index> all(spheres.position.size()), cell_of(spheres.position.size());
   std::iota(all.begin(), all.end(), 0);
-  std::vector<Index> slab_size(static_cast<std::size_t>(grid.slab_count()) + 1, 0);
+  SpatialOrder sorted;
+  sorted.slab.resize(all.size());
   for (Index i : all) {
     const CellGrid::Cell cell = grid.cell(spheres.position[i]);
-    cell_of[i] = grid.number(cell);
-    ++slab_size[grid.slab(cell) + 1];
+    cell_of[i] = grid.number_in_blocks(cell, width);
+    sorted.slab[i] = grid.slab(cell);
   }
-  CellMembers sorted;
-  sorted.fill(all, cell_of, grid.cell_count());
-  std::partial_sum(slab_size.begin(), slab_size.end(), slab_size.begin());
-  return {std::move(sorted.points), std::move(slab_size)};
+  CellMembers members;
+  members.fill(all, cell_of, grid.cell_count());
+  const Index cells_a_block = width * (grid.cell_count() / slabs);
+  for (Index first = 0; first < grid.cell_count(); first += cells_a_block)
+    sorted.block_first.push_back(members.first[first]);
+  sorted.block_first.push_back(members.first.back());
+  sorted.order = std::move(members.points);
+  return sorted;
 }
 
-/// What one slab found, to be put together in the order of the slabs.
-struct SlabPairs {
-  std::vector<Index> count;  ///< partners of each sphere of the slab
+/// What one block found, to be put together in the order of the blocks.
+struct BlockPairs {
+  std::vector<Index> count;  ///< partners of each sphere of the block
   std::vector<Index> other;
   std::vector<PairList::WidePair> wide;
 };
-
-std::vector<Index> slab_of_spheres(std::span<const Index> slab_first) {
-  std::vector<Index> slab(slab_first.back());
-  for (std::size_t k = 0; k + 1 < slab_first.size(); ++k)
-    std::fill(slab.begin() + slab_first[k], slab.begin() + slab_first[k + 1], static_cast<Index>(k));
-  return slab;
-}
 
 bool same_rock(const Spheres& spheres, Index i, Index j) noexcept {
   return spheres.in_rock(i) && spheres.rock[i] == spheres.rock[j];
 }
 
-SlabPairs search_slab(const Spheres& spheres, const SizeClasses& classes, std::span<const Index> slab,
-                      double skin, Index begin, Index end) {
-  SlabPairs found;
+BlockPairs search_block(const Spheres& spheres, const SizeClasses& classes, std::span<const Index> slab,
+                        double skin, Index begin, Index end) {
+  BlockPairs found;
   for (Index i = begin; i < end; ++i) {
     const Row& p = spheres.position[i];
     const std::size_t before = found.other.size();
@@ -117,17 +123,18 @@ PairList::Rebuilt PairList::rebuild(Spheres& spheres, double skin, int threads) 
 
   spheres.reorder(sorted.order);
   classes.build_cells(spheres);
-  slab_first_ = std::move(sorted.slab_first);
-  const std::vector<Index> slab = slab_of_spheres(slab_first_);
-  std::vector<SlabPairs> found(static_cast<std::size_t>(slab_count()));
+  block_first_ = std::move(sorted.block_first);
+  std::vector<Index> slab(sorted.slab.size());
+  for (std::size_t i = 0; i < slab.size(); ++i) slab[i] = sorted.slab[sorted.order[i]];
+  std::vector<BlockPairs> found(static_cast<std::size_t>(block_count()));
 #pragma omp parallel for schedule(dynamic) num_threads(threads) if (threads > 1)
-  for (Index k = 0; k < slab_count(); ++k)
-    found[k] = search_slab(spheres, classes, slab, skin, slab_first_[k], slab_first_[k + 1]);
+  for (Index k = 0; k < block_count(); ++k)
+    found[k] = search_block(spheres, classes, slab, skin, block_first_[k], block_first_[k + 1]);
 
   first_.assign(1, 0);
   other_.clear();
   wide_.clear();
-  for (const SlabPairs& part : found) {
+  for (const BlockPairs& part : found) {
     for (Index count : part.count) first_.push_back(first_.back() + count);
     other_.insert(other_.end(), part.other.begin(), part.other.end());
     wide_.insert(wide_.end(), part.wide.begin(), part.wide.end());

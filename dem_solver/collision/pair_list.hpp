@@ -13,14 +13,15 @@ namespace talus::dem {
 /// All pairs of spheres nearer than a skin, found by a grid a size class, so that 1 : 100 in size costs no
 /// more than equal sizes.
 ///
-/// Every pair has a slot, where its contact law keeps its memory. The spheres are sorted into slabs; a pair
-/// belongs to one of its spheres, its owner, and reaches no further than the neighbouring slabs. Slabs k, k +
-/// 3, k + 6 ... therefore never write to the same sphere, and three passes over every third slab may add
-/// forces in place, by any number of threads, in an order that does not depend on it. The few pairs that
-/// reach further (a boulder among sand) come last, one after the other.
+/// Every pair has a slot, where its contact law keeps its memory. The spheres are sorted into slabs, one cell
+/// thick, and neighbouring slabs into blocks of two or more; a pair belongs to one of its spheres, its owner,
+/// and reaches no further than the neighbouring slabs. Every second block therefore never writes to the same
+/// sphere as the others, and two passes, over the even blocks and over the odd ones, may add forces in place,
+/// by any number of threads, in an order that does not depend on it. The few pairs that reach further (a
+/// boulder among sand) come last, one after the other.
 class PairList {
  public:
-  static constexpr int passes = 3;
+  static constexpr int passes = 2;
 
   struct WidePair {
     Index first = 0, second = 0;
@@ -34,9 +35,9 @@ class PairList {
   Rebuilt rebuild(Spheres& spheres, double skin, int threads);
 
   Index slots() const noexcept { return static_cast<Index>(touched_.size()); }
-  Index slab_count() const noexcept { return static_cast<Index>(slab_first_.size()) - 1; }
-  /// Spheres of slab k: slab_first()[k] .. slab_first()[k + 1]
-  std::span<const Index> slab_first() const noexcept { return slab_first_; }
+  Index block_count() const noexcept { return static_cast<Index>(block_first_.size()) - 1; }
+  /// Spheres of block k: block_first()[k] .. block_first()[k + 1]
+  std::span<const Index> block_first() const noexcept { return block_first_; }
   /// Partners of sphere i: other()[first()[i]] .. other()[first()[i + 1]]; the place is the slot.
   std::span<const Index> first() const noexcept { return first_; }
   std::span<const Index> other() const noexcept { return other_; }
@@ -49,7 +50,7 @@ class PairList {
   /// Calls visit(array) for each array of the state.
   template <class Self, class Visitor>
   static void visit_state(Self& self, Visitor&& visit) {
-    visit("slab_first", self.slab_first_);
+    visit("block_first", self.block_first_);
     visit("first", self.first_);
     visit("other", self.other_);
     visit("wide", self.wide_);
@@ -57,7 +58,7 @@ class PairList {
   }
 
  private:
-  std::vector<Index> slab_first_{0, 0};
+  std::vector<Index> block_first_{0, 0};
   std::vector<Index> first_{0};
   std::vector<Index> other_;
   std::vector<WidePair> wide_;

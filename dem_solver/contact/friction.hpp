@@ -49,12 +49,14 @@ struct CoulombFriction {
   template <class Real>
   TALUS_INLINE static Triple<Real> spring_at_start(const Triple<Real>& n, Real kt,
                                                    const Quad<Real>& memory) noexcept {
-    const Real none{}, tiny = none + 1e-300;
+    const Real tiny = Real{} + 1e-300;
     const Triple<Real> old = triple(memory);
     const Triple<Real> turned = old - dot(old, n) * n;
-    const Real kept_length = square_root(dot(old, old) / larger(dot(turned, turned), tiny));
-    const Real unloaded = kt < memory.w ? kt / memory.w : none + 1.0;
-    return (kept_length * unloaded) * turned;
+    // Length kept and unloaded, in one square root and one division.
+    const Real kept = smaller(kt, memory.w), stiffness = memory.w;
+    return square_root(dot(old, old) * (kept * kept) /
+                       larger(dot(turned, turned) * (stiffness * stiffness), tiny)) *
+           turned;
   }
 
   /// The vector, cut to a length where it is longer.

@@ -21,14 +21,15 @@ EffectiveModuli effective_moduli(const Material& a, const Material& b) noexcept 
 }
 
 PairParameters pair_parameters(const HertzContact& contact, const EffectiveModuli& moduli) noexcept {
-  return {.normal = Row{{moduli.normal, moduli.shear, hertz_damping_ratio(contact.restitution), 0}},
+  return {.normal = Row{{moduli.normal, moduli.shear, hertz_damping_ratio(contact.restitution),
+                         2 * std::sqrt(moduli.shear / moduli.normal)}},
           .friction = {},
           .rolling = {}};
 }
 
 PairParameters pair_parameters(const LinearContact& contact) noexcept {
   return {.normal = Row{{contact.stiffness, contact.tangential_ratio * contact.stiffness,
-                         oscillator_damping_ratio(contact.restitution), 0}},
+                         oscillator_damping_ratio(contact.restitution), std::sqrt(contact.tangential_ratio)}},
           .friction = {},
           .rolling = {}};
 }

@@ -25,6 +25,8 @@ concept NormalLaw = requires(const Touch<double>& touch, const ContactParameters
 ///     E* · effective modulus               · Pa    · parameters.normal.x      1/E* = sum (1 - v^2)/E
 ///     G* · effective shear modulus         · Pa    · parameters.normal.y      1/G* = sum (2 - v)/G
 ///     g  · damping ratio                   · 1     · parameters.normal.z      from hertz_damping_ratio()
+///     q  · sqrt(kt/kn)                     · 1     · parameters.normal.w      2 sqrt(G*/E*)
+/// The dashpot along the surface, 2 g sqrt(m* kt), is q times the normal one.
 /// Valid for a << R*, smooth spheres, no adhesion. Tests: verification/particles "hertz", unit "The normal
 /// force is the derivative of its energy".
 struct Hertz {
@@ -35,11 +37,10 @@ struct Hertz {
     const Real d = larger(touch.overlap, zero);
     const Real a = square_root(touch.reduced_radius * d);
     const Real kn = 2.0 * p.normal.x * a, kt = 8.0 * p.normal.y * a;
-    const Real two_g = 2.0 * p.normal.z;
-    const Real c = two_g * square_root(touch.reduced_mass * kn);
+    const Real c = 2.0 * p.normal.z * square_root(touch.reduced_mass * kn);
     const Real elastic = (2.0 / 3.0) * kn * d;
     const Real total = larger(elastic - c * dot(touch.velocity, touch.normal), zero);
-    return {elastic, d > zero ? total : zero, kn, c, kt, two_g * square_root(touch.reduced_mass * kt)};
+    return {elastic, d > zero ? total : zero, kn, c, kt, p.normal.w * c};
   }
 
   template <class Real>
@@ -57,6 +58,7 @@ struct Hertz {
 ///     k  · stiffness             · N/m · parameters.normal.x
 ///     kt · tangential stiffness  · N/m · parameters.normal.y
 ///     z  · damping ratio         · 1   · parameters.normal.z      from oscillator_damping_ratio()
+///     q  · sqrt(ratio)           · 1   · parameters.normal.w
 /// Tests: "A collision on linear springs lasts as long as the oscillator and rebounds as asked for", unit
 /// "The normal force is the derivative of its energy".
 struct LinearSpring {
@@ -66,11 +68,10 @@ struct LinearSpring {
     const Real zero{};
     const Real d = larger(touch.overlap, zero);
     const Real k = d > zero ? p.normal.x : zero, kt = d > zero ? p.normal.y : zero;
-    const Real two_z = 2.0 * p.normal.z;
-    const Real c = two_z * square_root(touch.reduced_mass * k);
+    const Real c = 2.0 * p.normal.z * square_root(touch.reduced_mass * k);
     const Real elastic = k * d;
     const Real total = larger(elastic - c * dot(touch.velocity, touch.normal), zero);
-    return {elastic, total, k, c, kt, two_z * square_root(touch.reduced_mass * kt)};
+    return {elastic, total, k, c, kt, p.normal.w * c};
   }
 
   template <class Real>

@@ -19,9 +19,9 @@ struct TouchingPair {
 template <class Law>
 class PairContacts : public ContactBatch<Law> {
  public:
-  /// A task is a slab; the last is that of the wide pairs.
+  /// A task is a block; the last is that of the wide pairs.
   void rebuild(const PairList& list, std::span<const SlotMove> moves) {
-    ContactBatch<Law>::rebuild(list.slots(), moves, list.slab_count() + 1);
+    ContactBatch<Law>::rebuild(list.slots(), moves, list.block_count() + 1);
   }
 
   struct Context {
@@ -37,9 +37,9 @@ class PairContacts : public ContactBatch<Law> {
   void evaluate(const Context& context) noexcept {
     this->clear_work();
     for (int pass = 0; pass < PairList::passes; ++pass) {
-      const Index slabs = context.list.slab_count();
+      const Index blocks = context.list.block_count();
 #pragma omp parallel for schedule(dynamic) num_threads(context.threads) if (context.threads > 1)
-      for (Index slab = pass; slab < slabs; slab += PairList::passes) evaluate_slab(context, slab);
+      for (Index block = pass; block < blocks; block += PairList::passes) evaluate_block(context, block);
     }
     if (!context.list.wide().empty()) evaluate_wide(context);
   }
@@ -49,59 +49,76 @@ class PairContacts : public ContactBatch<Law> {
   static constexpr int buffer_size =
       256;  ///< touching pairs collected before the law runs; stays in the first-level cache
 
-  struct Buffer {
-    TouchingPair pairs[buffer_size + lane_count];
-    int count = 0;
+  using Buffer = TouchingPair[buffer_size + lane_count];
+
+  /// The arrays of the search for touching pairs as bare pointers: `touched` is bytes, which might overlap
+  /// anything, so that every write to it would have the other addresses loaded again.
+  struct Candidates {
+    const Row* position;
+    const Index* first;
+    const Index* other;
+    std::uint8_t* touched;
   };
 
-  /// Adds the pair where it touches or did; no branch, since in a dense bed neither outcome is rare.
-  TALUS_INLINE static void collect(const Context& context, Buffer& buffer, TouchingPair pair) noexcept {
-    const Row& p = context.spheres.position[pair.first];
-    const Row& q = context.spheres.position[pair.second];
-    const double dx = p.x - q.x, dy = p.y - q.y, dz = p.z - q.z, reach = p.w + q.w;
-    const bool touches = dx * dx + dy * dy + dz * dz < reach * reach;
-    std::uint8_t& touched = context.list.touched()[pair.slot];
-    buffer.pairs[buffer.count] = pair;
-    buffer.count += touches | touched;
-    touched = touches;
+  static Candidates candidates(const Context& context) noexcept {
+    return {context.spheres.position.data(), context.list.first().data(), context.list.other().data(),
+            context.list.touched().data()};
   }
 
-  void evaluate_slab(const Context& context, Index slab) noexcept {
-    const auto first = context.list.first();
-    const auto other = context.list.other();
-    const Index begin = context.list.slab_first()[slab], end = context.list.slab_first()[slab + 1];
-    Buffer buffer;
+  /// Whether the pair touches or did: 0 or 1 to count with, since in a dense bed neither is rare enough to
+  /// branch.
+  TALUS_INLINE static int is_at_work(const Candidates& from, const TouchingPair& pair) noexcept {
+    const Lanes mirrored = load(from.position[pair.first]) * Lanes{-1, -1, -1, 1};
+    const Lanes apart = load(from.position[pair.second]) + mirrored;  // w: the distance at which they touch
+    const Lanes squared = apart * apart;
+    const bool touches = squared[0] + squared[1] + squared[2] < squared[3];
+    std::uint8_t& touched = from.touched[pair.slot];
+    const int at_work = touches | touched;
+    touched = touches;
+    return at_work;
+  }
+
+  void evaluate_block(const Context& context, Index block) noexcept {
+    const Candidates from = candidates(context);
+    const Index begin = context.list.block_first()[block], end = context.list.block_first()[block + 1];
+    Buffer pairs;
+    int count = 0;
     ContactWork work;
     for (Index i = begin; i < end; ++i) {
-      for (Index slot = first[i]; slot < first[i + 1]; ++slot) {
-        collect(context, buffer, {i, other[slot], slot});
-        if (buffer.count == buffer_size) flush(context, buffer, work);
+      const Index last = from.first[i + 1];
+      for (Index slot = from.first[i]; slot < last; ++slot) {
+        pairs[count] = {i, from.other[slot], slot};
+        count += is_at_work(from, pairs[count]);
+        if (count == buffer_size) count = flush(context, pairs, count, work);
       }
     }
-    flush(context, buffer, work);
-    this->add_work(slab, work);
+    flush(context, pairs, count, work);
+    this->add_work(block, work);
   }
 
   void evaluate_wide(const Context& context) noexcept {
-    Buffer buffer;
+    Buffer pairs;
+    int count = 0;
     ContactWork work;
+    const Candidates from = candidates(context);
     Index slot = static_cast<Index>(context.list.other().size());
     for (const PairList::WidePair& pair : context.list.wide()) {
-      collect(context, buffer, {pair.first, pair.second, slot++});
-      if (buffer.count == buffer_size) flush(context, buffer, work);
+      pairs[count] = {pair.first, pair.second, slot++};
+      count += is_at_work(from, pairs[count]);
+      if (count == buffer_size) count = flush(context, pairs, count, work);
     }
-    flush(context, buffer, work);
-    this->add_work(context.list.slab_count(), work);
+    flush(context, pairs, count, work);
+    this->add_work(context.list.block_count(), work);
   }
 
-  void flush(const Context& context, Buffer& buffer, ContactWork& work) noexcept {
-    // The last group is filled up with its own first pair, whose results are not stored.
-    for (int k = 0; k < lane_count; ++k)
-      buffer.pairs[buffer.count + k] = buffer.pairs[buffer.count > 0 ? buffer.count - 1 : 0];
-    for (int k = 0; k < buffer.count; k += lane_count)
-      evaluate_four(context, buffer.pairs + k, buffer.count - k < lane_count ? buffer.count - k : lane_count,
-                    work);
-    buffer.count = 0;
+  /// Evaluates the pairs collected so far.
+  /// @return how many are left: none
+  int flush(const Context& context, Buffer& pairs, int count, ContactWork& work) noexcept {
+    // The last group is filled up with its own last pair, whose results are not stored.
+    for (int k = 0; k < lane_count; ++k) pairs[count + k] = pairs[count > 0 ? count - 1 : 0];
+    for (int k = 0; k < count; k += lane_count)
+      evaluate_four(context, pairs + k, std::min(count - k, lane_count), work);
+    return 0;
   }
 
   TALUS_INLINE void evaluate_four(const Context& context, const TouchingPair* pairs, int active,
@@ -122,8 +139,9 @@ class PairContacts : public ContactBatch<Law> {
     touch.normal = (1.0 / distance) * apart;
     touch.overlap = pa.w + pb.w - distance;
     touch.velocity = triple(va) - triple(vb);
-    touch.reduced_radius = pa.w * pb.w / (pa.w + pb.w);
-    touch.reduced_mass = va.w * vb.w / (va.w + vb.w);
+    const Lanes radii = pa.w + pb.w, masses = va.w + vb.w, inverse = 1.0 / (radii * masses);
+    touch.reduced_radius = pa.w * pb.w * masses * inverse;
+    touch.reduced_mass = va.w * vb.w * radii * inverse;
     // Both arms end at the same point, so that the pair's angular momentum is kept.
     const Lanes arm_a = pa.w - 0.5 * touch.overlap, arm_b = pb.w - 0.5 * touch.overlap;
     if constexpr (Law::has_friction) {
@@ -167,8 +185,11 @@ class PairContacts : public ContactBatch<Law> {
                            context.spheres.material[pairs[k].second]);
     };
     const PairParameters &a = of(0), &b = of(1), &c = of(2), &d = of(3);
+    const bool are_one = &a == &b && &a == &c && &a == &d;  // nearly always
     const auto lanes = [&](Row PairParameters::*part) {
-      return transposed(load(a.*part), load(b.*part), load(c.*part), load(d.*part));
+      if (!are_one) return transposed(load(a.*part), load(b.*part), load(c.*part), load(d.*part));
+      const Row& same = a.*part;
+      return Quad<Lanes>{Lanes{} + same.x, Lanes{} + same.y, Lanes{} + same.z, Lanes{} + same.w};
     };
     ContactParameters<Lanes> p;
     p.normal = lanes(&PairParameters::normal);

@@ -19,30 +19,26 @@ class PlaneContacts : public ContactBatch<Law> {
     int threads = 1;
   };
 
+  /// A task is a chunk of the list.
   void rebuild(const PlaneList& list, std::span<const SlotMove> moves) {
-    ContactBatch<Law>::rebuild(list.slots(), moves, list.slots() / chunk + 1);
+    ContactBatch<Law>::rebuild(list.slots(), moves, list.chunk_count());
   }
 
-  /// Plane after plane, so that a sphere in a corner gets its forces in a fixed order; the spheres of one
-  /// plane in any.
+  /// Each sphere's planes in their order, so that a sphere in a corner gets its forces in a fixed one.
   void evaluate(const Context& context) noexcept {
     this->clear_work();
-    const auto first = context.list.first();
-    for (std::size_t k = 0; k + 1 < first.size(); ++k) {
-      const Index begin = first[k] / chunk, end = (first[k + 1] + chunk - 1) / chunk;
-#pragma omp parallel for schedule(static) num_threads(context.threads) if (context.threads > 1)
-      for (Index c = begin; c < end; ++c)
-        evaluate_range(context, std::max(first[k], c * chunk), std::min(first[k + 1], (c + 1) * chunk), c);
-    }
+    const Index chunks = context.list.chunk_count();
+#pragma omp parallel for schedule(static) num_threads(context.threads) if (context.threads > 1 && chunks > 1)
+    for (Index chunk = 0; chunk < chunks; ++chunk) evaluate_chunk(context, chunk);
   }
 
  private:
   using ContactBatch<Law>::memory_;
-  static constexpr Index chunk = 512;  ///< entries a task; fixed, so that sums don't depend on the threads
 
-  void evaluate_range(const Context& context, Index begin, Index end, Index task) noexcept {
+  void evaluate_chunk(const Context& context, Index chunk) noexcept {
     ContactWork work;
-    for (Index slot = begin; slot < end; ++slot) {
+    for (Index slot = context.list.chunk_first()[chunk]; slot < context.list.chunk_first()[chunk + 1];
+         ++slot) {
       const auto [i, k] = context.list.entries()[slot];
       const Plane& plane = context.planes[k];
       const double radius = context.spheres.position[i].w;
@@ -61,7 +57,7 @@ class PlaneContacts : public ContactBatch<Law> {
       evaluate_rigid_contact<Law>(context.spheres, touch, context.step, memory, work);
       memory_.remember(slot, memory);
     }
-    this->add_work(task, work);
+    this->add_work(chunk, work);
   }
 };
 
