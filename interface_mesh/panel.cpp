@@ -13,13 +13,19 @@ namespace {
 
 /// A rim node this close to a corner, as a share of the edge, stands on it.
 constexpr double corner_share = 1e-9;
+/// An area vector shorter than this part of its largest triangle's is round-off.
+constexpr double nothing_of_triangle = 1e-9;
 
-/// Area vector of a closed polygon (Newell): normal to the plane that fits it, twice its area long (m^2).
-Vector3 area_vector(const std::vector<Vector3>& corners) {
-  Vector3 sum = Vector3::Zero();
-  for (std::size_t k = 1; k + 1 < corners.size(); ++k)
-    sum += (corners[k] - corners[0]).cross(corners[k + 1] - corners[0]);
-  return sum;
+/// Unit normal of the plane that fits a closed polygon: its area vector (Newell). That of a bow tie vanishes,
+/// and its largest triangle gives the plane, so that what is wrong with it can be said.
+Vector3 plane_normal(const std::vector<Vector3>& corners) {
+  Vector3 sum = Vector3::Zero(), largest = Vector3::Zero();
+  for (std::size_t k = 1; k + 1 < corners.size(); ++k) {
+    const Vector3 triangle = (corners[k] - corners[0]).cross(corners[k + 1] - corners[0]);
+    sum += triangle;
+    if (triangle.squaredNorm() > largest.squaredNorm()) largest = triangle;
+  }
+  return (sum.norm() > nothing_of_triangle * largest.norm() ? sum : largest).normalized();
 }
 
 }  // namespace
@@ -33,7 +39,7 @@ Panel make_panel(const Rectangle& rectangle) {
 }
 
 Panel make_panel(const std::vector<Vector3>& corners) {
-  const Vector3 normal = area_vector(corners).normalized();
+  const Vector3 normal = plane_normal(corners);
   const Vector3 first_edge = corners[1] - corners[0];
   Panel panel{.origin = corners[0], .along = (first_edge - first_edge.dot(normal) * normal).normalized()};
   panel.across = normal.cross(panel.along);
@@ -47,7 +53,7 @@ Panel make_panel(const std::vector<Vector3>& corners) {
 
 double flatness(const std::vector<Vector3>& corners) {
   if (corners.empty()) return 0;
-  const Vector3 normal = area_vector(corners).normalized();
+  const Vector3 normal = plane_normal(corners);
   Vector3 middle = Vector3::Zero();
   for (const auto& corner : corners) middle += corner / double(corners.size());
   double largest = 0;

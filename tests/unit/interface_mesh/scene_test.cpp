@@ -57,6 +57,13 @@ TEST_CASE("an outline that crosses itself or is not flat is told with the coordi
         "scene.yaml:1:37: section.outline: crosses or touches itself: edge 1 from (0, 0, 1) m to (2, 2, 1) m "
         "and edge 3 "
         "from (2.5, 0, 1) m to (0, 2, 1) m");
+  // A bow tie whose halves cancel has no area vector; it crosses itself all the same, and no corner is
+  // repeated.
+  CHECK(complaints_about<SheetScene>(
+            "section: {element_size: 1, outline: [[0, 0, 1], [2, 2, 1], [2, 0, 1], [0, 2, 1]]}") ==
+        "scene.yaml:1:37: section.outline: crosses or touches itself: edge 1 from (0, 0, 1) m to (2, 2, 1) m "
+        "and edge 3 "
+        "from (2, 0, 1) m to (0, 2, 1) m");
   // The fitted plane rises by 0.1 m a metre along x and y: the corners are 0.1 m / sqrt(1.02) off it.
   CHECK(complaints_about<SheetScene>(
             "section: {element_size: 1, outline: [[0, 0, 0], [2, 0, 0], [2, 2, 0.4], [0, 2, 0]]}")
