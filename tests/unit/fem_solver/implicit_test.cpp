@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "fem_solver/integration/explicit.hpp"
+#include "tests/support/convergence.hpp"
 #include "tests/support/structures.hpp"
 
 namespace {
@@ -68,6 +69,18 @@ TEST_CASE("halving the implicit step divides its error by four") {
   };
   const double coarse = middle_after(80), middle = middle_after(160), fine = middle_after(320);
   CHECK((coarse - middle) / (middle - fine) == Approx(4).epsilon(0.1));
+}
+
+TEST_CASE("Newton converges quadratically in an implicit step") {
+  Model model = tests::net<CableBatch>(wire, 0.1, 7);
+  model.loads = {tests::load(24, {10, 0, -500})};
+  Assembly assembly(model);
+  const double step = 1e-3;  // 200 times the explicit limit: the net's forces count for more than its inertia
+  ImplicitSolver solver(model, assembly, {.step = step, .newton = {.tolerance = 1e-13}});
+  solver.advance(0, step);
+  const auto& residuals = solver.reports().back().residuals;
+  WARN("relative residuals of an implicit step: " << tests::listed(residuals));
+  CHECK(tests::converges_quadratically(residuals));
 }
 
 TEST_CASE("implicit and explicit integration agree on a net that falls into its prestress") {

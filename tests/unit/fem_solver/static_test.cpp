@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/errors.hpp"
+#include "tests/support/convergence.hpp"
 #include "tests/support/structures.hpp"
 
 namespace {
@@ -44,19 +45,12 @@ TEST_CASE("a static equilibrium leaves no residual in free directions, and its r
   CHECK(sum.norm() < 1e-8 * scale);
 }
 
-TEST_CASE("Newton converges quadratically near the solution") {
+TEST_CASE("Newton converges quadratically near a static equilibrium") {
   Run run(loaded_net(), {.end = 1, .step = 1, .newton = {.tolerance = 1e-13, .most_iterations = 60}});
   run.solver.advance(0, 1);
   const auto& residuals = run.solver.reports().back().residuals;
-  std::string line;
-  for (const double r : residuals) line += std::to_string(std::log10(r)) + " ";
-  INFO("log10 of the relative residuals: " << line);
-  bool quadratic =
-      false;  // r_(k+1) <= C r_k^2 shows as twice the digits; judged where the rounding is not reached
-  for (std::size_t k = 0; k + 2 < residuals.size(); ++k)
-    if (residuals[k] < 1e-2 && residuals[k + 1] > 1e-13)
-      quadratic = quadratic || std::log(residuals[k + 1]) < 1.7 * std::log(residuals[k]);
-  CHECK(quadratic);
+  WARN("relative residuals of a static step: " << tests::listed(residuals));
+  CHECK(tests::converges_quadratically(residuals));
 }
 
 TEST_CASE("the work of growing loads becomes elastic energy") {
