@@ -21,6 +21,9 @@ while [ $# -gt 0 ]; do
   esac
 done
 
+# Threads that wait sleep after some tenths of a millisecond, so that another program on their core costs its share and no more.
+export GOMP_SPINCOUNT=${GOMP_SPINCOUNT:-20000}
+
 number_of() { sed -n "s/.*\"$2\":\([0-9.e+-]*\).*/\1/p" <<<"$1"; }
 
 if [ $scaling = yes ]; then

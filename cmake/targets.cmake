@@ -41,5 +41,6 @@ function(talus_test name)
     set(chosen "~[long]")
   endif()
   add_test(NAME ${name} COMMAND ${name} --durations no ${chosen})
-  set_tests_properties(${name} PROPERTIES LABELS "${ARG_LABEL}" TIMEOUT ${ARG_TIMEOUT} RUN_SERIAL ${ARG_SERIAL})
+  # Threads that wait for others sleep soon: tests run side by side on few cores.
+  set_tests_properties(${name} PROPERTIES LABELS "${ARG_LABEL}" TIMEOUT ${ARG_TIMEOUT} RUN_SERIAL ${ARG_SERIAL} ENVIRONMENT GOMP_SPINCOUNT=1000)
 endfunction()

@@ -26,6 +26,9 @@ mesh::Surface surface_of(const NodesScene& nodes) {
         {node(nodes.triangles[k]), node(nodes.triangles[k + 1]), node(nodes.triangles[k + 2])});
   return surface;
 }
+mesh::Surface surface_of(const HeightGridScene& grid) {
+  return height_grid(grid);
+}
 template <class Shape>
 mesh::Surface surface_of(const Shape& shape) {
   return mesh::generate(shape).surface;
@@ -80,6 +83,7 @@ void describe(core::Fields& fields, BoundaryScene& boundary) {
   fields.optional("velocity", boundary.velocity, {.unit = "m/s", .help = "constant; absent: at rest"});
   fields.one_of(boundary.shape, mesh::net_alternatives({{"sheet", "a flat panel of triangles"},
                                                         {"mesh_file", "a mesh made elsewhere"},
+                                                        {"height_grid", "terrain from a grid of heights"},
                                                         {"nodes", "wires and triangles written out"}}));
 }
 

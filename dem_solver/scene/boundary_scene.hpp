@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/scene/fields.hpp"
+#include "dem_solver/scene/height_grid.hpp"
 #include "interface_mesh/scene/mesh_file.hpp"
 #include "interface_mesh/scene/nets.hpp"
 #include "interface_mesh/scene/sheet.hpp"
@@ -33,7 +34,7 @@ struct BoundaryScene {
   std::string material;
   std::optional<double> wire_radius;      ///< m; absent: that of the net, or 0
   std::optional<core::Vector3> velocity;  ///< m/s
-  mesh::NetChoice<mesh::SheetScene, mesh::MeshFileScene, NodesScene> shape;
+  mesh::NetChoice<mesh::SheetScene, mesh::MeshFileScene, HeightGridScene, NodesScene> shape;
 };
 void describe(core::Fields& fields, BoundaryScene& boundary);
 

@@ -42,7 +42,8 @@ TEST_CASE("A pair of materials that can meet but has no contact is named") {
 }
 
 TEST_CASE("The examples of the particle side run alone and write their results") {
-  const std::string name = GENERATE("bouncing_spheres", "rocks_and_stones", "rolling_on_triangles");
+  const std::string name =
+      GENERATE("bouncing_spheres", "rocks_and_stones", "rolling_on_triangles", "stones_down_a_slope");
   const test::Folder folder("dem_" + name);
   core::SolverCommand command;
   command.scene = std::string(TALUS_SOURCE_DIR) + "/configs/examples/" + name + ".yaml";
