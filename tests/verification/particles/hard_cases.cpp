@@ -36,7 +36,7 @@ std::int64_t steps_of(const HardCase& c) {
 
 }  // namespace
 
-TEST_CASE("Restitution 1 with friction makes no energy in a million steps") {
+TEST_CASE("Restitution 1 with friction makes no energy in a million steps", "[long]") {
   const HardCase c = hard_case("endless_bounce");
   REQUIRE(steps_of(c) == 1'000'000);
   ParticleSolver solver(c.model);
