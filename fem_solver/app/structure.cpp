@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "core/program/log.hpp"
 #include "core/units/units.hpp"
 #include "fem_solver/integration/explicit.hpp"
@@ -35,7 +37,10 @@ std::string description(const AddedMass& added) {
 
 std::vector<StepBound> bounds_of(const StructureScene& scene, Assembly& assembly) {
   if (!is_explicit(scene)) return {};
-  return step_bounds(assembly, std::vector<double>(assembly.model().reference.size(), 0.0));
+  auto bounds = step_bounds(assembly, std::vector<double>(assembly.model().reference.size(), 0.0));
+  if (scene.mass_scaling)
+    bounds.resize(std::min<std::size_t>(bounds.size(), 1));  // waves do not know of added mass
+  return bounds;
 }
 
 double chosen_step(const StructuralScene& scene, const std::vector<StepBound>& bounds) {

@@ -34,7 +34,8 @@ class Integrator {
   virtual std::span<const double> displacement() const = 0;  ///< m; at the present time, 3 a node
   virtual std::span<const double> velocity() const = 0;      ///< m/s; leapfrog: half a step before, 3 a node
   /// The velocity (m/s, 3 a node) that a step of `step` (s) from the present `time` (s) would lead to if no
-  /// interface force acted in it; empty where the integrator cannot say it.
+  /// interface force acted in it, before the constraints of sliders; empty where the integrator cannot say
+  /// it.
   virtual std::span<const double> free_velocity([[maybe_unused]] double time, [[maybe_unused]] double step) {
     return {};
   }
