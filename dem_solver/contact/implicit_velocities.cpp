@@ -34,8 +34,13 @@ InverseMasses inverse_masses(const Contact& contact, const Bodies& bodies) noexc
   return {sum, sum + turning};
 }
 
+struct Answer {
+  Triple<double> force;
+  double amplification = 0;  ///< of a change of force by the next step's dashpot, 1 + c dt g
+};
+
 /// The force this contact answers with, all others as they are.
-Triple<double> answer(const Contact& contact, const Bodies& bodies, double step) noexcept {
+Answer answer(const Contact& contact, const Bodies& bodies, double step) noexcept {
   const InverseMasses g = inverse_masses(contact, bodies);
   const Triple<double> u = ImplicitVelocities::relative_velocity(contact, bodies);
   const Triple<double>& n = contact.normal;
@@ -43,15 +48,15 @@ Triple<double> answer(const Contact& contact, const Bodies& bodies, double step)
   const Triple<double> old_tangential = contact.force - old_normal * n;
 
   const double un_free = un - step * g.normal * old_normal;
-  const double normal =
-      std::max(0.0, (contact.elastic - contact.damping * un_free) / (1 + contact.damping * step * g.normal));
+  const double amplification = 1 + contact.damping * step * g.normal;
+  const double normal = std::max(0.0, (contact.elastic - contact.damping * un_free) / amplification);
   const double drag = contact.tangential_stiffness * step + contact.tangential_damping;
-  if (drag <= 0) return normal * n;
+  if (drag <= 0) return {normal * n, amplification};
   const Triple<double> ut_free = (u - un * n) - (step * g.tangential) * old_tangential;
   Triple<double> tangential = (1 / (1 + drag * step * g.tangential)) * (contact.spring - drag * ut_free);
   const double size = length(tangential), limit = contact.coefficient * normal;
   if (size > limit) tangential = (limit / size) * tangential;
-  return normal * n + tangential;
+  return {normal * n + tangential, amplification};
 }
 
 }  // namespace
@@ -72,11 +77,11 @@ int ImplicitVelocities::solve(std::span<Contact> contacts, Bodies& bodies, doubl
   for (int sweep = 1; sweep <= control.most_sweeps; ++sweep) {
     double largest_change = 0, largest_force = 0;
     for (Contact& contact : contacts) {
-      const Triple<double> force = answer(contact, bodies, step);
+      const auto [force, amplification] = answer(contact, bodies, step);
       const Triple<double> change = force - contact.force;
       push(contact, change, step, bodies);
       contact.force = force;
-      largest_change = std::max(largest_change, dot(change, change));
+      largest_change = std::max(largest_change, amplification * amplification * dot(change, change));
       largest_force = std::max(largest_force, dot(force, force));
     }
     if (largest_change <= control.tolerance * control.tolerance * largest_force) return sweep;

@@ -39,8 +39,11 @@ namespace talus::dem {
 class ImplicitVelocities {
  public:
   struct Control {
-    double tolerance = 1e-4;  ///< largest change of a force in a sweep over the largest force
-    int most_sweeps = 100;
+    /// Largest change of a force in a sweep, times 1 + c dt g, over the largest force. What a sweep leaves,
+    /// df, moves a light node at dt g df, and the dashpot answers to that in the next step: without the
+    /// factor a heavy rock's dashpot feeds on it and the step is unstable, however small the force is.
+    double tolerance = 1e-4;
+    int most_sweeps = 1000;
   };
   /// One contact as the system sees it; filled in a fixed order.
   struct Contact {

@@ -16,7 +16,8 @@ void describe(core::Fields& fields, SphereScene& sphere) {
 void describe(core::Fields& fields, ImplicitContactScene& contact) {
   fields.with_default("tolerance", contact.tolerance,
                       {.range = {.low = 1e-12, .high = 0.1},
-                       .help = "largest change of a contact force in a sweep, over the largest force"});
+                       .help = "largest change of a contact force in a sweep, and of what its dashpot "
+                               "answers to it, over the largest force"});
   fields.with_default("most_sweeps", contact.most_sweeps,
                       {.range = {.low = 1, .high = 100000},
                        .help = "sweeps after which a step goes on with what it has, counted in the summary"});

@@ -27,7 +27,7 @@ void describe(core::Fields& fields, SphereScene& sphere);
 /// See ImplicitVelocities.
 struct ImplicitContactScene {
   double tolerance = 1e-4;  ///< largest change of a contact force in a sweep over the largest force
-  std::int64_t most_sweeps = 100;
+  std::int64_t most_sweeps = 1000;
 };
 void describe(core::Fields& fields, ImplicitContactScene& contact);
 
