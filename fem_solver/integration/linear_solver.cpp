@@ -47,8 +47,8 @@ struct LinearSolver::Factor {
     cholmod_start(&common);
     common.print = 0;  // a matrix that is not positive definite is an answer here, not a message
     common.final_ll = 1;
-    // Column by column. By supernodes CHOLMOD starts four threads for each of thousands of small blocks, which
-    // takes longer than the factor itself and steals the cores of the coupled processes.
+    // Column by column. By supernodes CHOLMOD starts four threads for each of thousands of small blocks,
+    // which takes longer than the factor itself and steals the cores of the coupled processes.
     common.supernodal = CHOLMOD_SIMPLICIAL;
   }
   ~Factor() {
