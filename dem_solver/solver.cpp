@@ -125,6 +125,8 @@ void ParticleSolver::clear_loads() noexcept {
 
 ContactStage ParticleSolver::contact_stage() noexcept {
   return {.spheres = spheres_,
+          .rocks = rocks_,
+          .place = place_,
           .planes = planes_,
           .boundary = boundary_,
           .pair_list = pair_list_,

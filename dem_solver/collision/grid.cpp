@@ -12,7 +12,9 @@ struct Extent {
   double low = 0, high = 0;
 };
 
-/// The span that holds all but the outermost thousandth of the points on either side, so that strays don't
+constexpr std::size_t sample_size = 10'000;  // enough for a thousandth to be ten points
+
+/// The span that holds all but the outermost thousandth of the values on either side, so that strays don't
 /// spread the grid.
 Extent trimmed_extent(std::vector<double>& values) {
   const std::size_t cut = values.size() / 1000;
@@ -29,9 +31,11 @@ Extent trimmed_extent(std::vector<double>& values) {
 CellGrid::CellGrid(std::span<const Row> points, double smallest_cell) {
   if (points.empty()) return;
   std::array<Extent, 3> extent;
-  std::vector<double> values(points.size());
+  const std::size_t stride = std::max<std::size_t>(1, points.size() / sample_size);
+  std::vector<double> values;
   for (int k = 0; k < 3; ++k) {
-    std::ranges::transform(points, values.begin(), [k](const Row& p) { return component(p, k); });
+    values.clear();
+    for (std::size_t i = 0; i < points.size(); i += stride) values.push_back(component(points[i], k));
     extent[k] = trimmed_extent(values);
     low_[k] = extent[k].low;
   }

@@ -49,13 +49,14 @@ class BoundaryContacts : public ContactBatch<Law> {
   /// Contacts with a boundary of nodes that the forces move within the step (ImplicitVelocities). One thread:
   /// each contact sees what those before it did.
   /// @return the sweeps that were needed; most_sweeps + 1: not converged
-  int evaluate_implicitly(const Context& context, const ImplicitContact& implicit) noexcept {
+  int evaluate_implicitly(const Context& context, const ImplicitContact& implicit,
+                          const ImplicitSystem::Scene& scene) noexcept {
     const auto spheres = static_cast<Index>(context.list.spheres().size());
     if (scratch_.empty()) return 0;
     this->clear_work();
     ContactWork work;
     for (Index k = 0; k < spheres; ++k) find_contacts(context, k, scratch_[0], work);
-    system_.gather_bodies(context.spheres, context.list.spheres(), context.boundary, implicit, context.step);
+    system_.gather_bodies(scene, context.list.spheres(), implicit, context.step);
     for_each_contact(context, [&](Index k, Index slot) { add_to_system(context, k, slot); });
     const int sweeps = system_.solve(context.step, implicit.control);
     std::size_t next = 0;
@@ -135,7 +136,7 @@ class BoundaryContacts : public ContactBatch<Law> {
     const RigidTouch touch = rigid_touch(context, i, contact);
     ImplicitVelocities::Contact unknown =
         springs_at_rest<Law>(context.spheres, touch, memory_.recall(slot), triple<double>(contact.force));
-    unknown.sphere = k;
+    system_.tie(unknown, k, -arm_of(context.spheres, touch) * touch.normal);
     unknown.nodes = context.boundary.features()[contact.feature].nodes;
     unknown.weights = {contact.weights.a, contact.weights.b, contact.weights.c};
     system_.add(unknown, relative_velocity<Law>(context.spheres, touch));

@@ -9,6 +9,8 @@ namespace talus::dem {
 /// What contacts work on, and the lists of who may touch whom.
 struct ContactStage {
   Spheres& spheres;
+  const Rocks& rocks;
+  std::span<const Index> place;  ///< where each sphere's id stands
   std::span<const Plane> planes;
   Boundary& boundary;
   PairList& pair_list;

@@ -20,7 +20,9 @@ int ContactModel<Law>::evaluate(const ContactStage& s) noexcept {
   const typename BoundaryContacts<Law>::Context context{s.spheres, s.boundary, s.boundary_list,
                                                         s.table,   s.step,     s.threads};
   // After all other loads: implicit contact starts from the velocities they lead to.
-  if (s.implicit_contact) return boundary_.evaluate_implicitly(context, *s.implicit_contact);
+  if (s.implicit_contact)
+    return boundary_.evaluate_implicitly(context, *s.implicit_contact,
+                                         {s.spheres, s.rocks, s.place, s.boundary});
   boundary_.evaluate(context);
   return 0;
 }

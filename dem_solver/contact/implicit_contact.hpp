@@ -3,6 +3,7 @@
 #include "dem_solver/boundary/boundary.hpp"
 #include "dem_solver/contact/implicit_velocities.hpp"
 #include "dem_solver/contact/rigid_contact.hpp"
+#include "dem_solver/rocks/rocks.hpp"
 
 namespace talus::dem {
 
@@ -15,9 +16,22 @@ struct ImplicitContact {
 /// The contacts of one step and the bodies between them, for ImplicitVelocities.
 class ImplicitSystem {
  public:
-  /// Spheres with the loads they bear already, nodes with the velocity the structure gives them.
-  void gather_bodies(const Spheres& spheres, std::span<const Index> which, const Boundary& boundary,
-                     const ImplicitContact& implicit, double step);
+  struct Scene {
+    const Spheres& spheres;
+    const Rocks& rocks;
+    std::span<const Index> place;  ///< where each sphere's id stands
+    const Boundary& boundary;
+  };
+  /// Spheres and rocks with the loads they bear already, nodes with the velocity the structure gives them.
+  /// @param which the spheres near the boundary
+  void gather_bodies(const Scene& scene, std::span<const Index> which, const ImplicitContact& implicit,
+                     double step);
+  /// Ties a contact of the k-th of those spheres to its body.
+  /// @param point m; where they touch, from the sphere's centre
+  void tie(ImplicitVelocities::Contact& contact, Index k, const Triple<double>& point) const noexcept {
+    contact.body = body_of_[k];
+    contact.lever = offset_[k] + point;
+  }
   /// @param velocity m/s; the relative velocity half a step before the forces' time
   void add(const ImplicitVelocities::Contact& contact, const Triple<double>& velocity) {
     contacts_.push_back(contact);
@@ -35,6 +49,9 @@ class ImplicitSystem {
   std::vector<ImplicitVelocities::Contact> contacts_;
   std::vector<Triple<double>> velocity_before_;
   ImplicitVelocities::Bodies bodies_;
+  std::vector<Index> body_of_;          ///< of each sphere near the boundary
+  std::vector<Triple<double>> offset_;  ///< m; of that sphere's centre from its body's
+  std::vector<Index> body_of_rock_;     ///< -1: none of its spheres is near
 };
 
 /// The contact's springs and dashpots at the forces' time, as the system sees them.
@@ -55,7 +72,6 @@ ImplicitVelocities::Contact springs_at_rest(const Spheres& spheres, const RigidT
   ImplicitVelocities::Contact contact{
       .normal = at.normal, .elastic = normal.elastic, .damping = normal.damping, .force = guess};
   if constexpr (Law::has_friction) {
-    contact.arm = arm_of(spheres, at);
     contact.tangential_stiffness = normal.tangential_stiffness;
     contact.tangential_damping = normal.tangential_damping;
     contact.spring =

@@ -7,12 +7,10 @@ using Contact = ImplicitVelocities::Contact;
 using Bodies = ImplicitVelocities::Bodies;
 
 void push(const Contact& contact, const Triple<double>& force, double step, Bodies& bodies) noexcept {
-  Row& v = bodies.velocity[contact.sphere];
+  Row& v = bodies.velocity[contact.body];
   add(v, (step * v.w) * force);
-  if (contact.arm > 0) {
-    Row& spin = bodies.spin[contact.sphere];
-    add(spin, (step * spin.w * contact.arm) * cross(force, contact.normal));
-  }
+  Triple<double>& spin = bodies.spin[contact.body];
+  spin = spin + bodies.inverse_inertia[contact.body] * (step * cross(contact.lever, force));
   for (std::size_t k = 0; k < 3; ++k) {
     if (contact.nodes[k] < 0) continue;
     Row& node = bodies.node_velocity[contact.nodes[k]];
@@ -20,51 +18,76 @@ void push(const Contact& contact, const Triple<double>& force, double step, Bodi
   }
 }
 
-struct InverseMasses {
+/// Some unit vector across a unit vector.
+Triple<double> across(const Triple<double>& n) noexcept {
+  const Triple<double> other = std::abs(n.x) < 0.6 ? Triple<double>{1, 0, 0} : Triple<double>{0, 1, 0};
+  const Triple<double> t = cross(n, other);
+  return (1 / length(t)) * t;
+}
+
+struct Response {
   double normal = 0, tangential = 0;  ///< 1/kg
 };
 
-InverseMasses inverse_masses(const Contact& contact, const Bodies& bodies) noexcept {
-  double sum = bodies.velocity[contact.sphere].w;
+Response response(const Contact& contact, const Bodies& bodies) noexcept {
+  double sum = bodies.velocity[contact.body].w;
   for (std::size_t k = 0; k < 3; ++k) {
     if (contact.nodes[k] < 0) continue;
     sum += contact.weights[k] * contact.weights[k] * bodies.node_velocity[contact.nodes[k]].w;
   }
-  const double turning = contact.arm > 0 ? contact.arm * contact.arm * bodies.spin[contact.sphere].w : 0;
-  return {sum, sum + turning};
+  const auto turning = [&](const Triple<double>& a, const Triple<double>& b) {
+    return dot(cross(contact.lever, a), bodies.inverse_inertia[contact.body] * cross(contact.lever, b));
+  };
+  const Triple<double>& n = contact.normal;
+  const Triple<double> s = across(n), t = cross(n, s);
+  // The larger eigenvalue of the two directions along the surface.
+  const double ss = turning(s, s), tt = turning(t, t), st = turning(s, t), half = 0.5 * (ss - tt);
+  return {sum + turning(n, n), sum + 0.5 * (ss + tt) + std::sqrt(half * half + st * st)};
 }
 
-struct Answer {
-  Triple<double> force;
-  double amplification = 0;  ///< of a change of force by the next step's dashpot, 1 + c dt g
-};
-
-/// The force this contact answers with, all others as they are.
-Answer answer(const Contact& contact, const Bodies& bodies, double step) noexcept {
-  const InverseMasses g = inverse_masses(contact, bodies);
-  const Triple<double> u = ImplicitVelocities::relative_velocity(contact, bodies);
+/// The normal force this contact answers with, all other forces as they are.
+double normal_answer(const Contact& contact, const Response& g, const Bodies& bodies, double step) noexcept {
   const Triple<double>& n = contact.normal;
-  const double old_normal = dot(contact.force, n), un = dot(u, n);
-  const Triple<double> old_tangential = contact.force - old_normal * n;
+  const double un_free = dot(ImplicitVelocities::relative_velocity(contact, bodies), n) -
+                         step * g.normal * dot(contact.force, n);
+  return std::max(0.0,
+                  (contact.elastic - contact.damping * un_free) / (1 + contact.damping * step * g.normal));
+}
 
-  const double un_free = un - step * g.normal * old_normal;
-  const double amplification = 1 + contact.damping * step * g.normal;
-  const double normal = std::max(0.0, (contact.elastic - contact.damping * un_free) / amplification);
+/// The tangential force, for the normal force that the contact has.
+Triple<double> tangential_answer(const Contact& contact, const Response& g, const Bodies& bodies,
+                                 double step) noexcept {
   const double drag = contact.tangential_stiffness * step + contact.tangential_damping;
-  if (drag <= 0) return {normal * n, amplification};
-  const Triple<double> ut_free = (u - un * n) - (step * g.tangential) * old_tangential;
-  Triple<double> tangential = (1 / (1 + drag * step * g.tangential)) * (contact.spring - drag * ut_free);
-  const double size = length(tangential), limit = contact.coefficient * normal;
-  if (size > limit) tangential = (limit / size) * tangential;
-  return {normal * n + tangential, amplification};
+  if (drag <= 0) return {};
+  const Triple<double>& n = contact.normal;
+  const Triple<double> u = ImplicitVelocities::relative_velocity(contact, bodies);
+  const double normal = dot(contact.force, n);
+  const Triple<double> old = contact.force - normal * n;
+  const Triple<double> free = (u - dot(u, n) * n) - (step * g.tangential) * old;
+  const Triple<double> wanted = (1 / (1 + drag * step * g.tangential)) * (contact.spring - drag * free);
+  const double size = length(wanted), limit = contact.coefficient * normal;
+  return size > limit ? (limit / size) * wanted : wanted;
+}
+
+/// Gives the contact the force it answers with. @return the change, N
+Triple<double> relax(Contact& contact, const Response& g, double step, Bodies& bodies) noexcept {
+  const Triple<double>& n = contact.normal;
+  const double old_normal = dot(contact.force, n);
+  const Triple<double> old_tangential = contact.force - old_normal * n;
+  const Triple<double> pressed = (normal_answer(contact, g, bodies, step) - old_normal) * n;
+  contact.force = contact.force + pressed;
+  push(contact, pressed, step, bodies);
+  const Triple<double> rubbed = tangential_answer(contact, g, bodies, step) - old_tangential;
+  contact.force = contact.force + rubbed;
+  push(contact, rubbed, step, bodies);
+  return pressed + rubbed;
 }
 
 }  // namespace
 
 Triple<double> ImplicitVelocities::relative_velocity(const Contact& contact, const Bodies& bodies) noexcept {
-  Triple<double> u = triple<double>(bodies.velocity[contact.sphere]);
-  if (contact.arm > 0)
-    u = u - contact.arm * cross(triple<double>(bodies.spin[contact.sphere]), contact.normal);
+  Triple<double> u =
+      triple<double>(bodies.velocity[contact.body]) + cross(bodies.spin[contact.body], contact.lever);
   for (std::size_t k = 0; k < 3; ++k)
     if (contact.nodes[k] >= 0)
       u = u - contact.weights[k] * triple<double>(bodies.node_velocity[contact.nodes[k]]);
@@ -77,12 +100,11 @@ int ImplicitVelocities::solve(std::span<Contact> contacts, Bodies& bodies, doubl
   for (int sweep = 1; sweep <= control.most_sweeps; ++sweep) {
     double largest_change = 0, largest_force = 0;
     for (Contact& contact : contacts) {
-      const auto [force, amplification] = answer(contact, bodies, step);
-      const Triple<double> change = force - contact.force;
-      push(contact, change, step, bodies);
-      contact.force = force;
+      const Response g = response(contact, bodies);
+      const Triple<double> change = relax(contact, g, step, bodies);
+      const double amplification = 1 + contact.damping * step * g.normal;  // see Control::tolerance
       largest_change = std::max(largest_change, amplification * amplification * dot(change, change));
-      largest_force = std::max(largest_force, dot(force, force));
+      largest_force = std::max(largest_force, dot(contact.force, contact.force));
     }
     if (largest_change <= control.tolerance * control.tolerance * largest_force) return sweep;
   }

@@ -29,7 +29,13 @@ namespace talus::dem {
 /// | f      | force               | on the sphere, Fn n + T                                  | N     |
 /// | Fe, T0 | elastic, spring     | springs at t_n                                           | N     |
 /// | c, ct  | damping, ...        | dashpots                                                 | N s/m |
-/// | g, g_t | inverse masses      | 1/m + sum N_k^2/m_k of the boundary's nodes, plus arm^2/I | 1/kg |
+/// | g, g_t | response            | velocity a unit of impulse at the contact makes there, along n; most
+/// along the surface | 1/kg |
+///
+/// With r from the body's centre to the contact point, an impulse p changes the velocity there by
+/// (1/m + sum N_k^2/m_k) p + (I^-1 (r x p)) x r, the sum over the boundary's nodes: for a sphere arm^2/I
+/// along the surface and nothing along n; for a rock the directions are coupled, so the normal force is found
+/// first, then the tangential one with the largest response of any direction, which sweeps make exact.
 ///
 /// The system is solved by sweeps over the contacts in their fixed order (Gauss-Seidel; each contact sees
 /// what the others have just done), which converge because the system is that of a dissipative law: the
@@ -47,21 +53,31 @@ class ImplicitVelocities {
   };
   /// One contact as the system sees it; filled in a fixed order.
   struct Contact {
-    Index sphere = 0;
+    Index body = 0;
     std::array<Index, 3> nodes{-1, -1, -1};  ///< of the boundary; -1: none
     std::array<double, 3> weights{};
     Triple<double> normal;
-    double arm = 0;                   ///< m; from the centre to the contact point; 0 where nothing turns
+    Triple<double> lever{};           ///< m; from the body's centre to the contact point
     double elastic = 0, damping = 0;  ///< N, N s/m
     double tangential_stiffness = 0, tangential_damping = 0;  ///< N/m, N s/m
     double coefficient = 0;                                   ///< of friction
     Triple<double> spring{};                                  ///< N; tangential, at t_n
     Triple<double> force{};                                   ///< N; found; a guess before
   };
-  /// What moves: velocities at t_n + dt/2 without boundary contact, moved on by what is found.
+  /// A symmetric matrix, 1/(kg m^2); zero where nothing turns the body.
+  struct InverseInertia {
+    Triple<double> x, y, z;  ///< rows
+
+    Triple<double> operator*(const Triple<double>& torque) const noexcept {
+      return {dot(x, torque), dot(y, torque), dot(z, torque)};
+    }
+  };
+  /// What moves, spheres and rocks alike: velocities at t_n + dt/2 without boundary contact, moved on by what
+  /// is found.
   struct Bodies {
-    std::vector<Row> velocity,
-        spin;  ///< of the spheres; w of velocity: inverse mass, of spin: inverse inertia
+    std::vector<Row> velocity;  ///< w: inverse mass
+    std::vector<Triple<double>> spin;
+    std::vector<InverseInertia> inverse_inertia;
     std::vector<Row> node_velocity;  ///< w: inverse mass
   };
 

@@ -47,18 +47,23 @@ double Rocks::place_members(Spheres& spheres, std::span<const Index> place) cons
   return std::sqrt(largest);
 }
 
+Rocks::Load Rocks::load(Index k, const Spheres& spheres, std::span<const Index> place) const noexcept {
+  Load sum;
+  for (Index m = first_member_[k]; m < first_member_[k + 1]; ++m) {
+    const Index i = place[members_[m]];
+    const Triple<double> f = triple<double>(spheres.force[i]);
+    sum.force = sum.force + f;
+    sum.torque = sum.torque + cross(triple<double>(spheres.position[i]) - centre_[k], f);
+    if (spheres.rotates()) sum.torque = sum.torque + triple<double>(spheres.torque[i]);
+  }
+  return sum;
+}
+
 void Rocks::move(const Spheres& spheres, std::span<const Index> place, const LeapfrogStep& how) noexcept {
   for (Index k = 0; k < size(); ++k) {
-    Triple<double> force{}, torque{};
-    for (Index m = first_member_[k]; m < first_member_[k + 1]; ++m) {
-      const Index i = place[members_[m]];
-      const Triple<double> f = triple<double>(spheres.force[i]);
-      force = force + f;
-      torque = torque + cross(triple<double>(spheres.position[i]) - centre_[k], f);
-      if (spheres.rotates()) torque = torque + triple<double>(spheres.torque[i]);
-    }
-    force_[k] = force;
-    torque_[k] = torque;
+    const Load sum = load(k, spheres, place);
+    force_[k] = sum.force;
+    torque_[k] = sum.torque;
     velocity_[k] = velocity_[k] + ((how.step / mass_[k]) * force_[k] + how.step * how.gravity);
     centre_[k] = centre_[k] + how.step * velocity_[k];
     momentum_[k] = momentum_[k] + how.step * torque_[k];

@@ -37,6 +37,13 @@ class Rocks {
   /// Sums the loads of the members, then moves by one step of the leapfrog like free spheres do.
   void move(const Spheres& spheres, std::span<const Index> place, const LeapfrogStep& how) noexcept;
 
+  struct Load {
+    Triple<double> force;   ///< N
+    Triple<double> torque;  ///< N m; about the centre
+  };
+  /// The sum of the loads on the members.
+  Load load(Index k, const Spheres& spheres, std::span<const Index> place) const noexcept;
+
   double mass(Index k) const noexcept { return mass_[k]; }
   /// m; of the sphere about the centre that holds the rock.
   double radius(Index k) const noexcept { return radius_[k]; }
@@ -45,8 +52,10 @@ class Rocks {
   const Triple<double>& force(Index k) const noexcept { return force_[k]; }
   const Triple<double>& angular_momentum(Index k) const noexcept { return momentum_[k]; }
   const Quaternion& orientation(Index k) const noexcept { return orientation_[k]; }
-  Triple<double> spin(Index k) const noexcept {
-    return angular_velocity(orientation_[k], momentum_[k], moments_[k]);
+  Triple<double> spin(Index k) const noexcept { return spin_of(k, momentum_[k]); }
+  /// rad/s; that the rock would have with another angular momentum, kg m^2/s.
+  Triple<double> spin_of(Index k, const Triple<double>& momentum) const noexcept {
+    return angular_velocity(orientation_[k], momentum, moments_[k]);
   }
 
   /// J; at the time level of the last forces: 1/2 m v.v_before and 1/2 w.L_before.

@@ -45,8 +45,6 @@ void describe(core::Fields& fields, ParticlesScene& particles) {
       "together with the nodes' own motion; absent: with the velocity half a step ago");
   fields.rule(!(particles.step && particles.implicit_contact), "step",
               "contradicts implicit_contact, which takes one step a coupling window");
-  fields.rule(particles.rocks.empty() || !particles.implicit_contact, "implicit_contact",
-              "is there for single spheres only; the scene has `rocks`");
   fields.choice("unstable_step", particles.unstable_step, {"refused", "allowed"},
                 "what to do with a step above a stability limit");
   fields.with_default("threads", particles.threads,
