@@ -1,7 +1,8 @@
 #include "coupler/acceleration/iqn_ils.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -9,104 +10,72 @@
 #include "core/output/checkpoint.hpp"
 
 namespace talus::coupler {
-namespace {
 
-/// Columns are read block by block, so that the one vector that meets all of them stays in the first-level
-/// cache.
-constexpr std::size_t block_size = 2048;
-
-/// Eight partial sums: a fixed order that the compiler can keep in vector registers.
-double dot(const double* a, const double* b, std::size_t count) noexcept {
-  std::array<double, 8> sums{};
-  std::size_t i = 0;
-  for (; i + 8 <= count; i += 8) {
-    for (std::size_t lane = 0; lane < 8; ++lane) sums[lane] += a[i + lane] * b[i + lane];
-  }
-  double rest = 0;
-  for (; i < count; ++i) rest += a[i] * b[i];
-  for (const double sum : sums) rest += sum;
-  return rest;
-}
-
-/// Calls `work(begin, count)` for each block of `size` values.
-template <class Work>
-void for_blocks(std::size_t size, Work&& work) {
-  for (std::size_t begin = 0; begin < size; begin += block_size)
-    work(begin, std::min(block_size, size - begin));
-}
-
-}  // namespace
-
-IqnIls::IqnIls(const Settings& settings)
-    : settings_(settings), gram_(settings.most_columns * settings.most_columns) {}
+IqnIls::IqnIls(const Settings& settings) : settings_(settings) {}
 
 void IqnIls::begin_window() {
   ++window_;
   first_ = true;
-  while (!columns_.empty() && columns_.front().window + settings_.reused_windows < window_)
-    drop_oldest_column();
+  std::erase_if(columns_,
+                [this](const Column& column) { return column.window + settings_.reused_windows < window_; });
 }
 
-std::vector<double> IqnIls::project(std::span<const double> residual) const {
-  std::vector<double> products(columns_.size());
-  for_blocks(residual.size(), [&](std::size_t begin, std::size_t count) {
-    for (std::size_t j = 0; j < columns_.size(); ++j) {
-      products[j] += dot(columns_[j].residual_change.data() + begin, residual.data() + begin, count);
-    }
-  });
-  return products;
+void IqnIls::start_in(Index unknowns) {
+  const auto most = static_cast<Index>(settings_.most_columns);
+  residual_changes_.resize(unknowns, most);
+  made_changes_.resize(unknowns, most);
+  gram_.setZero(most, most);
 }
 
-void IqnIls::add_column(std::span<const double> residual, std::span<const double> made,
-                        const std::vector<double>& products) {
-  Column column = std::exchange(spare_, {});
-  column.window = window_;
-  column.residual_change.resize(residual.size());
-  column.made_change.resize(residual.size());
-  for (std::size_t i = 0; i < residual.size(); ++i) {
-    column.residual_change[i] = residual[i] - residual_[i];
-    column.made_change[i] = made[i] - made_[i];
-  }
-  const std::size_t row = columns_.size();
-  for (std::size_t j = 0; j < row; ++j) gram(row, j) = gram(j, row) = products[j] - products_[j];
-  gram(row, row) = dot(column.residual_change.data(), column.residual_change.data(), residual.size());
-  columns_.push_back(std::move(column));
+IqnIls::Index IqnIls::free_place() const {
+  Index place = 0;
+  while (std::ranges::find(columns_, place, &Column::place) != columns_.end()) ++place;
+  return place;
 }
 
-void IqnIls::drop_oldest_column() {
-  const std::size_t count = columns_.size();
-  for (std::size_t i = 1; i < count; ++i) {
-    for (std::size_t j = 1; j < count; ++j) gram(i - 1, j - 1) = gram(i, j);
-  }
-  spare_ = std::move(columns_.front());
-  columns_.erase(columns_.begin());
-  if (!products_.empty()) products_.erase(products_.begin());
+Eigen::VectorXd IqnIls::project(const Eigen::VectorXd& residual) const {
+  return residual_changes_.leftCols(used_).transpose() * residual;
+}
+
+void IqnIls::add_column(const Eigen::VectorXd& residual, const Eigen::VectorXd& made,
+                        Eigen::VectorXd& products) {
+  if (columns_.size() == settings_.most_columns) columns_.erase(columns_.begin());
+  const Index place = free_place();
+  const Index before = used_;
+  used_ = std::max(used_, place + 1);
+  residual_changes_.col(place) = residual - residual_;
+  made_changes_.col(place) = made - made_;
+  gram_.col(place).head(before) = products - products_;
+  gram_.row(place).head(before) = gram_.col(place).head(before).transpose();
+  gram_(place, place) = residual_changes_.col(place).squaredNorm();
+  products.conservativeResize(used_);
+  products[place] = residual_changes_.col(place).dot(residual);
+  columns_.push_back({place, window_});
 }
 
 /// Cholesky over the newest columns first. Rows of `factor` belong to the columns kept, in that order.
-std::vector<double> IqnIls::coefficients() const {
-  const std::size_t count = columns_.size();
-  std::vector<std::size_t> kept;
+Eigen::VectorXd IqnIls::coefficients() const {
+  std::vector<Index> kept;
   std::vector<std::vector<double>> factor;
   std::vector<double> forward;  // solution of  factor y = -b
-  for (std::size_t newest = 0; newest < count; ++newest) {
-    const std::size_t column = count - 1 - newest;
+  for (auto newest = columns_.rbegin(); newest != columns_.rend(); ++newest) {
+    const Index column = newest->place;
     std::vector<double> row;
-    double pivot = gram(column, column), value = -products_[column];
+    double pivot = gram_(column, column), value = -products_[column];
     for (std::size_t k = 0; k < kept.size(); ++k) {
-      double entry = gram(column, kept[k]);
+      double entry = gram_(column, kept[k]);
       for (std::size_t l = 0; l < k; ++l) entry -= row[l] * factor[k][l];
       row.push_back(entry / factor[k][k]);
       pivot -= row[k] * row[k];
       value -= row[k] * forward[k];
     }
-    if (!(pivot > settings_.filter * settings_.filter * gram(column, column))) continue;
+    if (!(pivot > settings_.filter * settings_.filter * gram_(column, column))) continue;
     row.push_back(std::sqrt(pivot));
     forward.push_back(value / row.back());
     factor.push_back(std::move(row));
     kept.push_back(column);
   }
-  std::vector<double> result(count);
+  Eigen::VectorXd result = Eigen::VectorXd::Zero(used_);
   for (std::size_t k = kept.size(); k-- > 0;) {
     double value = forward[k];
     for (std::size_t l = k + 1; l < kept.size(); ++l) value -= factor[l][k] * result[kept[l]];
@@ -116,50 +85,57 @@ std::vector<double> IqnIls::coefficients() const {
 }
 
 void IqnIls::update(std::span<double> x, std::span<const double> made) {
-  std::vector<double>& residual = new_residual_;
-  residual.resize(x.size());
-  for (std::size_t i = 0; i < x.size(); ++i) residual[i] = made[i] - x[i];
-  if (!first_ && columns_.size() == settings_.most_columns) drop_oldest_column();
-  std::vector<double> products = project(residual);
-  if (!first_) {
-    add_column(residual, made, products);
-    products.push_back(dot(columns_.back().residual_change.data(), residual.data(), residual.size()));
-  }
+  const auto unknowns = static_cast<Index>(x.size());
+  Eigen::Map<Eigen::VectorXd> iterate(x.data(), unknowns);
+  const Eigen::Map<const Eigen::VectorXd> result(made.data(), unknowns);
+  if (residual_changes_.rows() != unknowns) start_in(unknowns);
+  new_residual_ = result - iterate;
+  Eigen::VectorXd products = project(new_residual_);
+  if (!first_) add_column(new_residual_, result, products);
   products_ = std::move(products);
   if (columns_.empty()) {
-    for (std::size_t i = 0; i < x.size(); ++i) x[i] += settings_.initial_factor * residual[i];
+    iterate += settings_.initial_factor * new_residual_;
   } else {
-    const std::vector<double> c = coefficients();
-    std::copy(made.begin(), made.end(), x.begin());
-    for_blocks(x.size(), [&](std::size_t begin, std::size_t count) {
-      for (std::size_t j = 0; j < columns_.size(); ++j) {
-        const double* change = columns_[j].made_change.data() + begin;
-        for (std::size_t i = 0; i < count; ++i) x[begin + i] += c[j] * change[i];
-      }
-    });
+    iterate = result;
+    iterate.noalias() += made_changes_.leftCols(used_) * coefficients();
   }
   std::swap(residual_, new_residual_);
-  made_.assign(made.begin(), made.end());
+  made_ = result;
   first_ = false;
 }
 
+namespace {
+
+void archive_values(core::StateArchive& archive, const std::string& name,
+                    Eigen::Ref<Eigen::VectorXd> values) {
+  std::vector<double> copy(values.begin(), values.end());
+  archive.values(name, copy);
+  std::ranges::copy(copy, values.begin());
+}
+
+}  // namespace
+
 void IqnIls::archive(core::StateArchive& archive) {
   auto count = static_cast<std::int64_t>(columns_.size());
-  auto size = static_cast<std::int64_t>(columns_.empty() ? 0 : columns_.front().made_change.size());
-  archive.count("columns", count);
-  archive.count("column_size", size);
+  std::int64_t unknowns = residual_changes_.rows(), used = used_;
   archive.count("acceleration_window", window_);
+  archive.count("columns", count);
+  archive.count("places", used);
+  archive.count("unknowns", unknowns);
+  if (residual_changes_.rows() != unknowns) start_in(unknowns);
+  used_ = used;
   columns_.resize(static_cast<std::size_t>(count));
   for (std::size_t j = 0; j < columns_.size(); ++j) {
-    Column& column = columns_[j];
-    const std::string name = "column_" + std::to_string(j);
-    column.residual_change.resize(static_cast<std::size_t>(size));
-    column.made_change.resize(static_cast<std::size_t>(size));
-    archive.values(name + "_residual", column.residual_change);
-    archive.values(name + "_made", column.made_change);
-    archive.count(name + "_window", column.window);
+    std::int64_t place = columns_[j].place;
+    archive.count(fmt::format("column_{}_place", j), place);
+    archive.count(fmt::format("column_{}_window", j), columns_[j].window);
+    columns_[j].place = place;
   }
-  archive.values("gram", gram_);
+  for (Index place = 0; place < used_; ++place) {
+    archive_values(archive, fmt::format("place_{}_residual", place), residual_changes_.col(place));
+    archive_values(archive, fmt::format("place_{}_made", place), made_changes_.col(place));
+    archive_values(archive, fmt::format("place_{}_products", place), gram_.col(place));
+  }
 }
 
 }  // namespace talus::coupler

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -21,7 +22,7 @@ namespace talus::coupler {
 /// | symbol | variable   | meaning                                  | unit            | shape             |
 /// |--------|------------|------------------------------------------|-----------------|-------------------|
 /// | x, H   | x, made    | iterate, what the two sides made of it   | that of x       | n                 |
-/// | v, w   | columns_   | changes of residual and of H             | that of x       | m columns of n    |
+/// | v, w   | *_changes_ | changes of residual and of H             | that of x       | n x m             |
 /// | G      | gram_      | G_ij = v_i . v_j                         | that of x^2     | m x m             |
 /// | b      | products_  | b_j = v_j . r_k                          | that of x^2     | m                 |
 ///
@@ -49,29 +50,30 @@ class IqnIls {
   void archive(core::StateArchive& archive);
 
  private:
+  using Index = Eigen::Index;
+  /// A column of the matrices, whose places are used again.
   struct Column {
-    std::vector<double> residual_change, made_change;  ///< v, w
-    std::int64_t window = 0;
+    Index place = 0;
+    std::int64_t window = 0;  ///< in which it was seen
   };
-  /// v_j . r of all columns.
-  std::vector<double> project(std::span<const double> residual) const;
-  void add_column(std::span<const double> residual, std::span<const double> made,
-                  const std::vector<double>& products);
-  void drop_oldest_column();
-  std::vector<double> coefficients() const;
-  double& gram(std::size_t i, std::size_t j) { return gram_[i * settings_.most_columns + j]; }
-  double gram(std::size_t i, std::size_t j) const { return gram_[i * settings_.most_columns + j]; }
+  void start_in(Index unknowns);
+  Index free_place() const;
+  /// v_j . r of all places.
+  Eigen::VectorXd project(const Eigen::VectorXd& residual) const;
+  void add_column(const Eigen::VectorXd& residual, const Eigen::VectorXd& made, Eigen::VectorXd& products);
+  /// c_j of all places, 0 where none or a skipped column is.
+  Eigen::VectorXd coefficients() const;
 
   Settings settings_;
   std::int64_t window_ = 0;
-  bool first_ = true;                    ///< no iteration of this window yet
-  std::vector<Column> columns_;          ///< oldest first
-  std::vector<double> gram_;             ///< rows of most_columns values
-  std::vector<double> products_;         ///< b of the last iteration
-  std::vector<double> residual_, made_;  ///< of the last iteration
-  // Memory of large vectors comes from the system page by page; what was used once is used again.
-  Column spare_;
-  std::vector<double> new_residual_;
+  bool first_ = true;                                ///< no iteration of this window yet
+  std::vector<Column> columns_;                      ///< oldest first
+  Index used_ = 0;                                   ///< places that have held a column so far
+  Eigen::MatrixXd residual_changes_, made_changes_;  ///< v, w; a column each place
+  Eigen::MatrixXd gram_;                             ///< by places
+  Eigen::VectorXd products_;                         ///< b of the last iteration, by places
+  Eigen::VectorXd residual_, made_;                  ///< of the last iteration
+  Eigen::VectorXd new_residual_;                     ///< keeps its memory from one iteration to the next
 };
 
 }  // namespace talus::coupler
