@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <map>
 #include <memory>
 
 #include "core/program/command_line.hpp"
@@ -27,6 +28,11 @@ void add_run(CLI::App& app, Chosen& chosen) {
       "--restart", request->restart,
       "go on from this checkpoint.h5; the result goes to results/<scene>_restarted or --out, with "
       "the rows before the checkpoint");
+  const std::map<std::string, Role> sides{{"structure", Role::structure}, {"particles", Role::particles}};
+  command
+      ->add_option("--wait", request->by_hand,
+                   "wait for this side (structure, particles) to be started by hand; its command is printed")
+      ->transform(CLI::CheckedTransformer(sides));
   command->callback([request, &chosen] {
     chosen.run = [request] {
       core::apply(request->options);

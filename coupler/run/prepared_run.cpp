@@ -1,6 +1,12 @@
 #include "coupler/run/prepared_run.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/program/log.hpp"
 #include "core/program/stop.hpp"
+#include "core/units/units.hpp"
 #include "coupler/launch/find_solver.hpp"
 
 namespace talus::coupler {
@@ -35,6 +41,14 @@ std::optional<launch::Program> program_of(const SideProgram& side, const core::S
   return program;
 }
 
+/// Tells whoever starts a side by hand how to.
+void announce(const SideProgram& side, const core::SceneFile& file, const Session& session, double seconds) {
+  core::log_info(fmt::format("waits {} for the {}; start it with\n  {} {} --join {}",
+                             core::readable(seconds, "s"), name_of(side.role),
+                             side.scene->solver.value_or(side.own_program),
+                             std::filesystem::absolute(file.path()).string(), session.segment_name()));
+}
+
 std::unique_ptr<Session> open_session(const CouplingScene& coupling) {
   transport::remove_stale_segments();
   return std::make_unique<Session>(transport::create_shared_segment(),
@@ -54,7 +68,15 @@ PreparedRun prepare(const PrepareOptions& options) {
   run.session = open_session(run.scene.coupling);
   for (const SideProgram& side : {SideProgram{Role::structure, "fem_solver", run.scene.structure},
                                   SideProgram{Role::particles, "dem_solver", run.scene.particles}}) {
+    const bool by_hand = std::ranges::find(options.by_hand, side.role) != options.by_hand.end();
+    if (!side.scene && by_hand)
+      throw core::ConfigError(fmt::format("--wait {0}: the scene has no section '{0}'", name_of(side.role)));
     if (!side.scene) continue;
+    if (by_hand) {
+      run.session->await(side.role);
+      announce(side, run.file, *run.session, run.scene.coupling.join_timeout);
+      continue;
+    }
     if (const auto program = program_of(side, run.file, options.threads, complaints))
       run.session->launch(side.role, *program);
   }

@@ -24,7 +24,8 @@ struct PreparedRun {
 
 struct PrepareOptions {
   std::filesystem::path scene;
-  int threads = 1;  ///< of each of Talus's own solvers
+  int threads = 1;              ///< of each of Talus's own solvers
+  std::vector<Role> by_hand{};  ///< sides that somebody else starts
 };
 
 /// Reads the scene, starts its solvers and hears them.

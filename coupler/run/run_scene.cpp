@@ -191,7 +191,8 @@ core::ExitCode run_prepared(PreparedRun& run, const RunRequest& request) {
 core::ExitCode run_scene(const RunRequest& request) {
   core::watch_stop_signals();
   try {
-    PreparedRun run = prepare({.scene = request.scene, .threads = request.options.threads});
+    PreparedRun run =
+        prepare({.scene = request.scene, .threads = request.options.threads, .by_hand = request.by_hand});
     try {
       return run_prepared(run, request);
     } catch (const std::exception& error) {
