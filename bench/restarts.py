@@ -1,0 +1,73 @@
+"""Called by restarts.sh: restarts.py TALUS EXAMPLES TIMES."""
+
+import json
+import random
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+talus, examples, times = Path(sys.argv[1]), Path(sys.argv[2]), int(sys.argv[3])
+SCENES = {  # what each adds to the example of its name
+    "cable_net": "time: {end: 0.08 s}",
+    "net_sliding_edges": "time: {end: 0.02 s}",
+    "cable_net_implicit": "time: {end: 0.06 s}",
+}
+TABLES = ("probes.csv", "energy.csv")
+
+
+def start(scene, out, *more):
+    command = [talus, "run", scene, "--out", out, "--overwrite", "--quiet", *more]
+    return subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
+
+
+def finish(run):
+    message = run.communicate()[1]
+    if run.returncode != 0:
+        sys.exit(f"{' '.join(map(str, run.args))} ended with {run.returncode}: {message}")
+
+
+def stop_somewhere(scene, out, number, seconds):
+    """Sends the signal at a random moment of the run; tries again where it came before the first checkpoint."""
+    while True:
+        run = start(scene, out)
+        time.sleep(random.uniform(0, seconds))
+        run.send_signal(number)
+        run.communicate()
+        if run.returncode == 0:
+            return False
+        if (out / "checkpoint.h5").exists():
+            return True
+
+
+def check(name, kind, number, scene, folder, seconds):
+    whole = folder / "whole"
+    different = done = 0
+    while done < times:
+        if not stop_somewhere(scene, folder / "stopped", number, seconds):
+            continue
+        finish(start(scene, folder / "restarted", "--restart", folder / "stopped" / "checkpoint.h5"))
+        different += any((folder / "restarted" / t).read_bytes() != (whole / t).read_bytes() for t in TABLES)
+        done += 1
+    print(json.dumps({"scene": name, "stopped_by": kind, "restarts": done, "different": different}), flush=True)
+    return different
+
+
+random.seed(1)
+bad = 0
+for name, more in SCENES.items():
+    with tempfile.TemporaryDirectory() as temporary:
+        folder = Path(temporary)
+        scene = folder / "scene.yaml"
+        scene.write_text(
+            f"extends: {examples / name}.yaml\n{more}\noutput: {{every: 1 ms, fields_every: ~}}\n"
+            "coupling: {checkpoint_every: 20 ms}\n"
+        )
+        begin = time.monotonic()
+        finish(start(scene, folder / "whole"))
+        seconds = time.monotonic() - begin
+        bad += check(name, "ctrl_c", signal.SIGINT, scene, folder, seconds)
+        bad += check(name, "kill_9", signal.SIGKILL, scene, folder, seconds)
+sys.exit(bad > 0)
