@@ -128,7 +128,7 @@ void measure(int nodes, const char* mapping, const coupler::InterfacePlan& plan)
   session.wait_joined();
   const auto interface = coupler::introduce(session, plan);
   coupler::lay_out_arrays(session, interface, window_length, coupler::Order::in_turn);
-  coupler::Exchange exchange(session, interface->tie.mapping, window_length);
+  coupler::Exchange exchange(session, interface->tie.mapping);
 
   std::vector<double> full, floor;
   for (int repetition = 0; repetition <= repetitions; ++repetition) {  // the first one warms up

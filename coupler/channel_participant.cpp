@@ -83,7 +83,7 @@ core::TransportError::Details ChannelParticipant::details(std::string reason) co
                       ? std::string("the coupler")
                       : fmt::format("the coupler (pid {})", control_.header.coupler_pid),
           .waited_for = waited_for_,
-          .window = window_,
+          .window = command_.window,
           .reason = std::move(reason),
           .waiter = name_of(options_.role)};
 }
@@ -140,6 +140,7 @@ void ChannelParticipant::declare(const Declaration& declaration) {
   send(channel_, Side::participant, MessageKind::declaration, encode(declaration),
        [this](double seconds) { look_around(seconds); });
   output_arrays_ = OutputArrays(declaration.outputs);
+  declaration_ = declaration;
   stage_ = Stage::declared;
 }
 
@@ -149,15 +150,16 @@ Command ChannelParticipant::next() {
   wait(channel_.command_posted, [this](double seconds) { look_around(seconds); });
   if (load(control_.header.state) != static_cast<std::uint32_t>(RunState::running)) look_around(0);
   if (stage_ == Stage::declared) map_arrays();
-  const Command command = command_of(channel_.command);
-  window_ = command.window;
-  stage_ = command.action == Action::finish ? Stage::finished : Stage::answering;
-  return command;
+  command_ = command_of(channel_.command);
+  meter_before(command_);
+  stage_ = command_.action == Action::finish ? Stage::finished : Stage::answering;
+  return command_;
 }
 
 void ChannelParticipant::answer() {
   expect(Stage::answering, "answer()");
   stage_ = Stage::idle;
+  meter_after();
   post(channel_.answer_posted);
 }
 
@@ -173,6 +175,33 @@ void ChannelParticipant::fail(const std::exception& error) noexcept {
   }
   store(channel_.state, static_cast<std::uint32_t>(ChannelState::failed));
   post(channel_.answer_posted);
+}
+
+void ChannelParticipant::meter_before(const Command& command) {
+  const auto force = array(ArrayName::force), displacement = array(ArrayName::displacement);
+  if (meter_) channel_.work += meter_->end(force, displacement);  // of the particles' last window
+  meter_.reset();
+  if (command.action == Action::save_state) iterated_window_ = command.window;
+  if (command.action != Action::advance || command.window == iterated_window_) return;
+  meter_.emplace(declaration_.takes_several_steps(command.length) ? ForceMeaning::mean
+                                                                  : ForceMeaning::at_start);
+  if (options_.role == Role::structure)
+    meter_->begin(force, {displacement, array(ArrayName::velocity)}, command.length);
+}
+
+void ChannelParticipant::meter_after() {
+  if (!meter_) return;
+  const auto force = array(ArrayName::force), displacement = array(ArrayName::displacement);
+  const auto end = array(ArrayName::end_displacement);
+  if (options_.role == Role::structure) {
+    channel_.work += meter_->end(force, displacement);
+  } else if (end.empty()) {
+    meter_->begin(force, {displacement, array(ArrayName::velocity)}, command_.length);
+    return;  // the boundary's new place comes with the next command
+  } else {
+    channel_.work += work_on_path(force, displacement, end);
+  }
+  meter_.reset();
 }
 
 void ChannelParticipant::map_arrays() {

@@ -9,6 +9,7 @@
 #include "coupler/transport/layout.hpp"
 #include "coupler/transport/process.hpp"
 #include "coupler/transport/segment.hpp"
+#include "coupler/work_meter.hpp"
 
 namespace talus::coupler {
 
@@ -52,6 +53,10 @@ class ChannelParticipant final : public Participant {
     throw core::TransportError(details(std::move(reason)));
   }
   void map_arrays();
+  // The ledger of the interface: each side sums the work on its own surface, whose values its core has just
+  // written or is about to read. In windows that are iterated the coupler does, once they are accepted.
+  void meter_before(const Command& command);
+  void meter_after();
   std::span<double> array(transport::ArrayName name) const { return arrays_[static_cast<std::size_t>(name)]; }
   std::span<double> outputs() const;
 
@@ -63,7 +68,10 @@ class ChannelParticipant final : public Participant {
   JoinOptions options_;
   Stage stage_ = Stage::joined;
   std::string waited_for_ = "the coupler to begin";
-  std::int64_t window_ = -1;
+  Command command_;                    ///< the last one
+  std::int64_t iterated_window_ = -1;  ///< the last one whose start was saved
+  Declaration declaration_;
+  std::optional<WorkMeter> meter_;  ///< of a window of a weak scheme
   std::size_t surface_nodes_ = 0;
   OutputArrays output_arrays_;
   std::array<std::span<double>, transport::array_count> arrays_;

@@ -6,6 +6,11 @@
 
 namespace talus::coupler {
 
+bool Declaration::takes_several_steps(double window_length) const {
+  constexpr double round_off = 1e-9;
+  return step > 0 && step < window_length * (1 - round_off);
+}
+
 std::unique_ptr<Participant> Participant::join(const JoinOptions& options) {
   return std::make_unique<ChannelParticipant>(transport::open_shared_segment(options.segment), options);
 }

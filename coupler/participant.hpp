@@ -74,6 +74,9 @@ struct Declaration {
   std::vector<StepLimit> limits{};
   std::vector<Effect> effects{};
   core::OutputDescription outputs{};
+
+  /// In a window of this length (s); particles then need the boundary at both its ends.
+  bool takes_several_steps(double window_length) const;
 };
 
 /// Interface values of one window, at the nodes of this side's surface, 3 a node. The structure's

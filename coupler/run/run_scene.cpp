@@ -72,7 +72,7 @@ struct Assembled {
     for (Peer* peer : run.session->peers()) peers.emplace_back(*peer);
     for (const auto& peer : peers) sources.push_back(&peer);
     if (!run.interface) return;
-    exchange.emplace(*run.session, run.interface->tie.mapping, run.window_length());
+    exchange.emplace(*run.session, run.interface->tie.mapping);
     sources.push_back(&interface.emplace(*run.interface, *run.session->find(Role::particles), *exchange));
   }
   std::vector<PeerSource> peers;

@@ -6,6 +6,10 @@
 
 #include "coupler/schemes/unknowns.hpp"
 
+namespace talus::core {
+class StateArchive;
+}
+
 namespace talus::coupler {
 
 /// When a window of a strong scheme counts as converged: on every field,

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "core/output/checkpoint.hpp"
-#include "coupler/session/introduction.hpp"
+#include "coupler/work_meter.hpp"
 
 namespace talus::coupler {
 namespace {
@@ -21,11 +21,6 @@ Exchange::Side side(Session& session, Role role) {
           .free_velocity = peer.array(ArrayName::free_velocity)};
 }
 
-ForceMeaning meaning_for(const Exchange::Side& side, double window_length) {
-  return takes_several_steps(side.peer.declaration(), window_length) ? ForceMeaning::mean
-                                                                     : ForceMeaning::at_start;
-}
-
 }  // namespace
 
 Command advance(const Window& window, int iteration) {
@@ -36,16 +31,12 @@ Command advance(const Window& window, int iteration) {
           .length = window.length};
 }
 
-Exchange::Exchange(Session& session, const mesh::Mapping& mapping, double window_length)
+Exchange::Exchange(Session& session, const mesh::Mapping& mapping)
     : session_(session),
       mapping_(mapping),
       structure_(side(session, Role::structure)),
       particles_(side(session, Role::particles)),
-      structure_work_(meaning_for(structure_, window_length)),
-      boundary_work_(meaning_for(particles_, window_length)),
-      one_set_(structure_.force.data() == particles_.force.data()),
-      one_work_(one_set_ &&
-                meaning_for(structure_, window_length) == meaning_for(particles_, window_length)) {}
+      one_set_(structure_.force.data() == particles_.force.data()) {}
 
 void Exchange::advance_particles(const Window& window, int iteration) {
   session_.ask(particles_.peer, advance(window, iteration));
@@ -53,7 +44,6 @@ void Exchange::advance_particles(const Window& window, int iteration) {
 
 void Exchange::advance_structure(const Window& window, int iteration) {
   session_.ask(structure_.peer, advance(window, iteration));
-  structure_work_.end(structure_.force, structure_.displacement);
 }
 
 void Exchange::advance_both(const Window& window, int iteration) {
@@ -61,7 +51,6 @@ void Exchange::advance_both(const Window& window, int iteration) {
   session_.post(structure_.peer, advance(window, iteration));
   session_.wait_answer(particles_.peer);
   session_.wait_answer(structure_.peer);
-  structure_work_.end(structure_.force, structure_.displacement);
 }
 
 void Exchange::save_states(const Window& window) {
@@ -84,28 +73,19 @@ bool Exchange::touching() const {
                      [](double value) { return value != 0; });
 }
 
-void Exchange::forces_to_structure(const Window& window) {
-  if (!one_set_) {
-    const bool touches = touching();
-    if (!touches && !touched_) return;
-    touched_ = touches;
-    mapping_.to_structure(particles_.force, structure_.force);
-  }
-  structure_work_.begin(structure_.force, {structure_.displacement, structure_.velocity}, window.length);
-  if (!one_work_)
-    boundary_work_.begin(particles_.force, {particles_.displacement, particles_.velocity}, window.length);
+void Exchange::forces_to_structure() {
+  if (one_set_) return;
+  const bool touches = touching();
+  if (touches || touched_) mapping_.to_structure(particles_.force, structure_.force);
+  touched_ = touches;
 }
 
 void Exchange::motion_to_boundary() {
-  const auto reached = particles_.end_displacement;
-  if (!reached.empty()) boundary_work_.end(particles_.force, reached);
-  if (!one_set_) {
-    mapping_.to_boundary(structure_.displacement, particles_.displacement);
-    mapping_.to_boundary(structure_.velocity, particles_.velocity);
-    if (!structure_.free_velocity.empty())
-      mapping_.to_boundary(structure_.free_velocity, particles_.free_velocity);
-  }
-  if (reached.empty()) boundary_work_.end(particles_.force, particles_.displacement);
+  if (one_set_) return;
+  mapping_.to_boundary(structure_.displacement, particles_.displacement);
+  mapping_.to_boundary(structure_.velocity, particles_.velocity);
+  if (!structure_.free_velocity.empty())
+    mapping_.to_boundary(structure_.free_velocity, particles_.free_velocity);
 }
 
 void Exchange::extrapolate_boundary_end(const Window& window) {
@@ -117,8 +97,9 @@ void Exchange::extrapolate_boundary_end(const Window& window) {
 }
 
 void Exchange::accept_window() {
-  boundary_work_.add(particles_.force, particles_.displacement, particles_.end_displacement);
-  structure_work_.add(structure_.force, structure_start_, structure_.displacement);
+  particles_.peer.work() +=
+      work_on_path(particles_.force, particles_.displacement, particles_.end_displacement);
+  structure_.peer.work() += work_on_path(structure_.force, structure_start_, structure_.displacement);
   mapping_.to_boundary(structure_.displacement, particles_.displacement);
   mapping_.to_boundary(structure_.velocity, particles_.velocity);
 }
@@ -138,8 +119,10 @@ void Exchange::archive(core::StateArchive& archive) {
     array(name + "_end_velocity", side->end_velocity);
     array(name + "_free_velocity", side->free_velocity);
   }
-  structure_work_.archive(archive, "work_on_structure");
-  boundary_work_.archive(archive, "work_on_boundary");
+  std::vector<double> works{structure_.peer.work(), particles_.peer.work()};
+  archive.values("works", works);
+  structure_.peer.work() = works[0];
+  particles_.peer.work() = works[1];
   std::int64_t touched = touched_ ? 1 : 0;
   archive.count("touched", touched);
   touched_ = touched != 0;

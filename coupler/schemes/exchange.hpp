@@ -4,9 +4,12 @@
 #include <span>
 #include <vector>
 
-#include "coupler/schemes/work_meter.hpp"
 #include "coupler/session/session.hpp"
 #include "interface_mesh/mapping.hpp"
+
+namespace talus::core {
+class StateArchive;
+}
 
 namespace talus::coupler {
 
@@ -35,7 +38,7 @@ class Exchange {
   };
 
   /// @pre the session's arrays are laid out; `mapping` lives as long as this
-  Exchange(Session& session, const mesh::Mapping& mapping, double window_length);
+  Exchange(Session& session, const mesh::Mapping& mapping);
 
   /// Before the first window, once the structure has answered to something: its motion at time 0.
   void start() { motion_to_boundary(); }
@@ -50,7 +53,7 @@ class Exchange {
   // Explicit schemes: straight from array to array.
   /// f_S = W^T f_D. Skipped while nothing touches: the forces of the last window were zero, as are these; and
   /// where both sides use the same arrays.
-  void forces_to_structure(const Window& window);
+  void forces_to_structure();
   /// u_D = W u_S, v_D = W v_S, as the boundary's motion at the start of the next window. Nothing to do where
   /// both sides use the same arrays.
   void motion_to_boundary();
@@ -69,8 +72,10 @@ class Exchange {
   Side& particles() { return particles_; }
 
   /// Work since the start, J.
-  double work_on_structure() const { return structure_work_.joules(); }
-  double work_on_boundary() const { return one_work_ ? work_on_structure() : boundary_work_.joules(); }
+  double work_on_structure() const { return structure_.peer.work(); }
+  /// Of windows of weak schemes up to the last command: what the last window's forces did is known once the
+  /// particles meet the boundary's new place.
+  double work_on_boundary() const { return particles_.peer.work(); }
   /// The arrays of both sides and the works: all that later windows depend on.
   void archive(core::StateArchive& archive);
   /// Whether the particles' last forces are not all zero.
@@ -80,9 +85,7 @@ class Exchange {
   Session& session_;
   const mesh::Mapping& mapping_;
   Side structure_, particles_;
-  WorkMeter structure_work_, boundary_work_;
   bool one_set_;                         ///< both sides have the same arrays
-  bool one_work_;                        ///< and take their forces the same way, so that their works are one
   std::vector<double> structure_start_;  ///< displacement at the start of a window that is iterated
   bool touched_ = false;
 };

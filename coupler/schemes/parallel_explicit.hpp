@@ -14,7 +14,7 @@ struct ParallelExplicit {
   void compute(Exchange& exchange, const Window& window) {
     exchange.extrapolate_boundary_end(window);
     exchange.advance_both(window);
-    exchange.forces_to_structure(window);
+    exchange.forces_to_structure();
     exchange.motion_to_boundary();
   }
 };

@@ -17,7 +17,7 @@ struct SerialExplicit {
   void compute(Exchange& exchange, const Window& window) {
     exchange.extrapolate_boundary_end(window);
     exchange.advance_particles(window);
-    exchange.forces_to_structure(window);
+    exchange.forces_to_structure();
     exchange.advance_structure(window);
     exchange.motion_to_boundary();
   }

@@ -108,7 +108,7 @@ bool needs_free_velocity(Session& session, double window_length) {
   const Peer *structure = session.find(Role::structure), *particles = session.find(Role::particles);
   if (!structure || !particles || !particles->declaration().free_velocity) return false;
   for (const Peer* peer : {structure, particles})
-    if (takes_several_steps(peer->declaration(), window_length))
+    if (peer->declaration().takes_several_steps(window_length))
       throw core::ConfigError(
           fmt::format("particles.implicit_contact wants one step a window, but {} takes steps of {:g} s in "
                       "windows of {:g} s",
@@ -118,11 +118,6 @@ bool needs_free_velocity(Session& session, double window_length) {
       fmt::format("particles.implicit_contact needs a structure that says how it would move without contact; "
                   "{} does not",
                   structure->declaration().program));
-}
-
-bool takes_several_steps(const Declaration& declaration, double window_length) {
-  constexpr double round_off = 1e-9;
-  return declaration.step > 0 && declaration.step < window_length * (1 - round_off);
 }
 
 void lay_out_arrays(Session& session, const std::optional<Interface>& interface, double window_length,
@@ -143,7 +138,7 @@ void lay_out_arrays(Session& session, const std::optional<Interface>& interface,
     }
     if (free_velocity) Session::request_array(*peer, ArrayName::free_velocity, values);
     if (is_structure) continue;
-    needs_end = order == Order::iterated || takes_several_steps(peer->declaration(), window_length);
+    needs_end = order == Order::iterated || peer->declaration().takes_several_steps(window_length);
     if (!needs_end) continue;
     Session::request_array(*peer, ArrayName::end_displacement, values);
     Session::request_array(*peer, ArrayName::end_velocity, values);

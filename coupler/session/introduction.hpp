@@ -36,10 +36,6 @@ struct Interface {
 std::optional<Interface> introduce(Session& session, const std::optional<InterfacePlan>& plan,
                                    std::vector<core::Complaint> complaints = {});
 
-/// Whether a participant takes several steps in a window of this length (s), so that it needs the boundary at
-/// both its ends.
-bool takes_several_steps(const Declaration& declaration, double window_length);
-
 /// Whether the particles ask for the boundary's free velocity.
 /// @throws core::ConfigError where the structure cannot say it, or a side takes several steps a window (s)
 bool needs_free_velocity(Session& session, double window_length);

@@ -38,6 +38,9 @@ class Peer {
   /// Interface and output arrays; valid once the data block exists.
   std::span<double> array(transport::ArrayName name) const { return arrays_[static_cast<std::size_t>(name)]; }
   void set_arrays(std::span<std::byte> data);
+  /// Done on this side's surface since time 0, J; the coupler's to change between an answer and the next
+  /// command.
+  double& work() const { return channel_.work; }
   const Declaration& declaration() const { return declaration_; }
   const OutputArrays& output_arrays() const { return output_arrays_; }
   void set_declaration(Declaration declaration);

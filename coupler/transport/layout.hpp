@@ -99,6 +99,8 @@ struct alignas(array_alignment) Channel {
   std::int64_t pid = 0;
   std::uint64_t start_time = 0;  ///< clock ticks since boot
   Signal command_posted, answer_posted;
+  double work = 0;  ///< J; done on this side's surface since time 0. Written by the participant while it
+                    ///< answers, else by the coupler
   CommandRecord command;
   std::array<ArraySlot, array_count> arrays{};
   std::array<std::byte, 32768> failure{};  ///< CBOR of why the participant cannot go on

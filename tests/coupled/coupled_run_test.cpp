@@ -34,7 +34,7 @@ void run_in_process(const std::filesystem::path& scene_file, const std::filesyst
   session.wait_joined();
   const auto interface = coupler::introduce(session, coupler::plan_of(*scene.interface));
   coupler::lay_out_arrays(session, interface, scene.window());
-  coupler::Exchange exchange(session, interface->tie.mapping, scene.window());
+  coupler::Exchange exchange(session, interface->tie.mapping);
   const coupler::PeerSource structure_values(structure), particle_values(particles);
   const coupler::InterfaceSource interface_values(*interface, particles, exchange);
   core::ResultWriter results({.folder = folder}, {&structure_values, &particle_values, &interface_values});

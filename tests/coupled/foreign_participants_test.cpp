@@ -45,7 +45,7 @@ class ForeignRun {
     session_.wait_joined();
     interface_ = coupler::introduce(session_, coupler::identical_surfaces());
     coupler::lay_out_arrays(session_, interface_, window_of(0).length);
-    exchange_.emplace(session_, interface_->tie.mapping, window_of(0).length);
+    exchange_.emplace(session_, interface_->tie.mapping);
   }
   void compute(std::int64_t window) { coupler::SerialExplicit{}.compute(*exchange_, window_of(window)); }
   coupler::Session& session() { return session_; }

@@ -23,7 +23,7 @@ class CoupledPair {
     session_.wait_joined();
     interface_ = coupler::introduce(session_, coupler::identical_surfaces());
     coupler::lay_out_arrays(session_, interface_, window_length, coupler::Order::iterated);
-    exchange_.emplace(session_, interface_->tie.mapping, window_length);
+    exchange_.emplace(session_, interface_->tie.mapping);
   }
   ~CoupledPair() { session_.abort("the test is over"); }
 

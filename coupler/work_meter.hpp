@@ -1,11 +1,6 @@
 #pragma once
 
 #include <span>
-#include <string>
-
-namespace talus::core {
-class StateArchive;
-}
 
 namespace talus::coupler {
 
@@ -18,13 +13,11 @@ enum class ForceMeaning { at_start, mean };
 ///     mean forces:        W = sum over windows, nodes of  f . (u_end - u_start)
 ///     forces at start:    W = sum over windows, nodes of  f . (u_end - u_start + v_start L) / 2
 ///
-/// | symbol | variable     | meaning                               | unit | shape    | sign |
-/// |--------|--------------|---------------------------------------|------|----------|-------------------------|
-/// | f      | force        | force of the window on a node         | N    | 3 a node | as set on the surface
-/// | | u      | displacement | of the node at the window's two ends  | m    | 3 a node | | | v      |
-/// velocity     | half a step before the window's start | m/s  | 3 a node |                         | | L |
-/// length       | of the window                         | s    |          |                         | | W |
-/// joules()     | work done on the surface since time 0 | J    |          | positive: surface gains |
+///     f   force         N, of the window on a node, as set on the surface
+///     u   displacement  m, of the node at the window's two ends
+///     v   velocity      m/s, half a step before the window's start
+///     L   length        s, of the window
+///     W   work          J, positive: the surface gains it
 ///
 /// The second rule is the one under which a leapfrog keeps its energy: with u_end - u_start = L v_end the
 /// kinetic energy m v_start . v_end / 2 changes by exactly this work. Tests: "work is force times path,
@@ -42,19 +35,17 @@ class WorkMeter {
 
   /// The surface at the window's start, and the forces it is going to bear.
   void begin(std::span<const double> force, const Motion& start, double length) noexcept;
-  /// Adds the work since begin(), which has to have been called with the same forces; without it nothing.
-  void end(std::span<const double> force, std::span<const double> displacement) noexcept;
-  /// Mean forces whose path is known at once.
-  void add(std::span<const double> mean_force, std::span<const double> start, std::span<const double> end);
-  double joules() const { return joules_; }
-  /// Writes or reads the whole state.
-  void archive(core::StateArchive& archive, const std::string& name);
+  /// The work since begin(), which has to have been called with the same forces; without it nothing. J
+  double end(std::span<const double> force, std::span<const double> displacement) noexcept;
 
  private:
   ForceMeaning meaning_;
   bool begun_ = false;
   double pending_ = 0;  ///< the part of the window's sum that its start decides, J
-  double joules_ = 0;
 };
+
+/// Work of mean forces whose path is known at once, J.
+double work_on_path(std::span<const double> mean_force, std::span<const double> start,
+                    std::span<const double> end) noexcept;
 
 }  // namespace talus::coupler

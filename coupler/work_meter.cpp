@@ -1,12 +1,9 @@
-#include "coupler/schemes/work_meter.hpp"
+#include "coupler/work_meter.hpp"
 
 #include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <vector>
-
-#include "core/output/checkpoint.hpp"
 
 namespace talus::coupler {
 namespace {
@@ -48,27 +45,18 @@ void WorkMeter::begin(std::span<const double> force, const Motion& start, double
   begun_ = true;
 }
 
-void WorkMeter::end(std::span<const double> force, std::span<const double> displacement) noexcept {
-  if (!begun_) return;
+double WorkMeter::end(std::span<const double> force, std::span<const double> displacement) noexcept {
+  if (!begun_) return 0;
+  begun_ = false;
   const double* u = displacement.data();
   const double path_times_force = pending_ + sum_over_loaded(force, [u](std::size_t i) { return u[i]; });
-  joules_ += meaning_ == ForceMeaning::mean ? path_times_force : 0.5 * path_times_force;
-  begun_ = false;
+  return meaning_ == ForceMeaning::mean ? path_times_force : 0.5 * path_times_force;
 }
 
-void WorkMeter::add(std::span<const double> mean_force, std::span<const double> start,
-                    std::span<const double> end) {
-  for (std::size_t i = 0; i < mean_force.size(); ++i) joules_ += mean_force[i] * (end[i] - start[i]);
-}
-
-void WorkMeter::archive(core::StateArchive& archive, const std::string& name) {
-  std::vector<double> works{pending_, joules_};
-  std::int64_t begun = begun_ ? 1 : 0;
-  archive.values(name, works);
-  archive.count(name + "_begun", begun);
-  pending_ = works[0];
-  joules_ = works[1];
-  begun_ = begun != 0;
+double work_on_path(std::span<const double> mean_force, std::span<const double> start,
+                    std::span<const double> end) noexcept {
+  const double *u = start.data(), *u_end = end.data();
+  return sum_over_loaded(mean_force, [=](std::size_t i) { return u_end[i] - u[i]; });
 }
 
 }  // namespace talus::coupler
