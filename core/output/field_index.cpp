@@ -105,6 +105,8 @@ FieldIndex::FieldIndex(const std::filesystem::path& path, const std::vector<Grou
   auto root = add(document_->xml, "Xdmf", {{"Version", "2.0"}});
   document_->series = add(root.append_child("Domain"), "Grid",
                           {{"Name", "talus"}, {"GridType", "Collection"}, {"CollectionType", "Temporal"}});
+  write();                  // so that a kill leaves a file whatever the moment
+  document_->written = {};  // and the first frame's is written at once
 }
 
 FieldIndex::~FieldIndex() = default;
