@@ -36,7 +36,33 @@ ExplicitSolver::ExplicitSolver(const Model& model, Assembly& assembly, double st
 void ExplicitSolver::advance(double time, double length) {
   const auto steps = std::max(1.0, std::ceil(length / longest_step_ * (1 - 1e-9)));
   const double step_length = length / steps;
+  if (stays_at_rest(time, step_length)) {
+    state_.steps += static_cast<std::int64_t>(steps);
+    state_.previous_step = step_length;
+    return;
+  }
   for (int k = 0; k < steps; ++k) step(time + k * step_length, step_length);
+}
+
+bool ExplicitSolver::stays_at_rest(double time, double step) noexcept {
+  if (state_.rest == Rest::to_be_seen)
+    state_.rest = starts_in_balance(time, step) ? Rest::rests : Rest::moves;
+  if (interface_.touched()) state_.rest = Rest::moves;
+  return state_.rest == Rest::rests;
+}
+
+bool ExplicitSolver::starts_in_balance(double time, double step) noexcept {
+  constexpr double round_off = 1e-12;  // of the largest force, summed over the elements at a node
+  const auto is_zero = [](double value) { return value == 0; };
+  if (state_.steps > 0 || !std::ranges::all_of(state_.velocity, is_zero)) return false;
+  if (std::ranges::any_of(model_.supports, &Support::moves)) return false;
+  if (!std::ranges::all_of(model_.loads, [](const auto& load) { return load.history.points.empty(); }))
+    return false;
+  state_.kick = 0.5 * step;
+  evaluate_forces(time);
+  impose_supports(time, step);
+  const double allowed = round_off * assembly_.largest_element_force();
+  return std::ranges::all_of(state_.force, [=](double value) { return std::abs(value) <= allowed; });
 }
 
 void ExplicitSolver::archive(core::StateArchive& archive) {
@@ -46,6 +72,9 @@ void ExplicitSolver::archive(core::StateArchive& archive) {
   archive.values("reactions", state_.reactions);
   archive_element_memory(archive, model_);
   archive.count("steps", state_.steps);
+  auto rest = static_cast<std::int64_t>(state_.rest);
+  archive.count("rest", rest);
+  state_.rest = static_cast<Rest>(rest);
   std::vector<double> numbers{state_.previous_step, state_.kick, state_.damped};
   for (const auto& work : state_.works) numbers.insert(numbers.end(), {work.done, work.pending});
   archive.values("times_and_works", numbers);

@@ -15,6 +15,9 @@
 
 namespace talus::fem {
 
+/// Whether a structure has moved since the start: before its first step nobody knows.
+enum class Rest : std::int64_t { to_be_seen, rests, moves };
+
 /// A moment of the run. Copying it is saving it; every number that the next step depends on is in here.
 struct ExplicitState {
   std::vector<double> displacement;  ///< m; at the present time
@@ -24,6 +27,7 @@ struct ExplicitState {
   std::vector<double>
       reactions;  ///< N; forces of the supports at that time, 3 a node of each support in turn
   std::int64_t steps = 0;
+  Rest rest = Rest::to_be_seen;
   double previous_step = 0;  ///< s; 0 before the first step
   double kick = 0;           ///< s; the last step's
   double damped = 0;         ///< J; by mass damping, the half step behind the last evaluation included
@@ -87,6 +91,10 @@ class ExplicitSolver final : public Integrator {
   const ExplicitState& state() const { return state_; }
 
  private:
+  /// A structure whose forces cancel to round-off, and to which nothing happens, rests until the interface
+  /// touches it: its steps cost nothing. Round-off alone would move it by some 1e-15 m.
+  bool stays_at_rest(double time, double step) noexcept;
+  bool starts_in_balance(double time, double step) noexcept;
   /// All forces but the supports'; on the interface those that are set.
   void evaluate_forces(double time) noexcept;
   /// Forces of the structure itself and of its loads.

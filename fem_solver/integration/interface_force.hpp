@@ -30,6 +30,7 @@ class InterfaceForce {
       if (force_[3 * k] != 0 || force_[3 * k + 1] != 0 || force_[3 * k + 2] != 0) touched_.push_back(k);
   }
 
+  bool touched() const noexcept { return !touched_.empty(); }
   /// visit(node, force in N) for every node whose force is not zero.
   template <class Visit>
   void for_each(const Visit& visit) const {

@@ -1,5 +1,6 @@
 #include "fem_solver/integration/explicit.hpp"
 
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
@@ -176,6 +177,50 @@ TEST_CASE("going back to a saved state repeats the run bit for bit") {
   run.time = 10 * 1e-4;
   run.steps(10);
   CHECK(run.solver.state() == first);
+}
+
+TEST_CASE(
+    "a prestressed net rests to the last bit until it is touched, then moves as if it had never waited") {
+  constexpr Index middle = 40;
+  constexpr double step = 1e-4, push = -25;  // s, N
+  const auto run_after = [](int windows_of_rest) {
+    Run run(tests::net<CableBatch>(wire, 0.1, 9), step);
+    run.solver.interface() = InterfaceForce({middle});
+    const auto window = [&] {
+      run.solver.advance(step * static_cast<double>(run.solver.state().steps), step);
+    };
+    for (int k = 0; k < windows_of_rest; ++k) window();
+    CHECK(run.solver.state().displacement == std::vector<double>(3 * 81, 0.0));
+    run.solver.interface().set(std::array{0.0, 0.0, push});
+    window();
+    // From rest one step of the leapfrog is dt^2 F/m.
+    CHECK(run.solver.state().displacement[3 * middle + 2] ==
+          Approx(step * step * push / run.model.node_masses[middle]));
+    run.solver.interface().set(std::array{0.0, 0.0, 0.0});
+    for (int k = 0; k < 50; ++k) window();
+    return run.solver.state().displacement;
+  };
+  CHECK(run_after(200) == run_after(1));
+}
+
+TEST_CASE("a net whose forces do not cancel, whose load grows or whose rim moves does not rest") {
+  Run run(tests::net<CableBatch>(wire, 0.1, 9), 1e-4);
+  SECTION("weight") {
+    run.model.gravity = Vector3(0, 0, -9.81);
+  }
+  SECTION("a load that grows from zero") {
+    run.model.loads = {tests::load(40, {0, 0, 1})};
+    run.model.loads[0].history.points = {{0, 0}, {1, 1}};
+  }
+  SECTION("a rim that is led") {
+    run.model.supports[0].displacement = Vector3(0, 0, 1);
+    run.model.supports[0].history.points = {{0, 0}, {1, 1}};
+  }
+  SECTION("a velocity at the start") {
+    run.solver.state().velocity[3 * 40 + 2] = 1;
+  }
+  for (int k = 0; k < 20; ++k) run.solver.advance(1e-4 * k, 1e-4);
+  CHECK(run.solver.state().displacement[3 * 40 + 2] != 0);
 }
 
 TEST_CASE("a step above the limit ends with an error that names a node and the last good output") {
