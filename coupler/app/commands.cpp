@@ -47,6 +47,7 @@ namespace {
 void add_inspection(CLI::App& app, Chosen& chosen, const char* name, const char* help,
                     core::ExitCode (*inspect)(const std::filesystem::path&)) {
   auto* command = app.add_subcommand(name, help);
+  command->footer(fmt::format("Example:\n  talus {} configs/examples/cable_net.yaml", name));
   const auto scene = std::make_shared<std::filesystem::path>();
   command->add_option("SCENE", *scene, "the scene, a YAML file")->required();
   command->callback([scene, inspect, &chosen] { chosen.run = [scene, inspect] { return inspect(*scene); }; });
@@ -66,9 +67,9 @@ void add_explain(CLI::App& app, Chosen& chosen) {
 }
 
 void add_schema(CLI::App& app, Chosen& chosen) {
-  app.add_subcommand("schema", "print all keys of a scene as Markdown (docs/schema.md)")->callback([&chosen] {
-    chosen.run = print_schema;
-  });
+  auto* command = app.add_subcommand("schema", "print all keys of a scene as Markdown (docs/schema.md)");
+  command->footer("Example:\n  talus schema > docs/schema.md");
+  command->callback([&chosen] { chosen.run = print_schema; });
 }
 
 void add_version(CLI::App& app, Chosen& chosen) {

@@ -52,6 +52,7 @@ core::ExitCode become(const std::string& program, std::vector<std::string> argum
 
 void add_mesh(CLI::App& app, Chosen& chosen) {
   auto* command = app.add_subcommand("mesh", "write the boundary net of a scene to a file");
+  command->footer("Example:\n  talus mesh configs/examples/openings.yaml --out net.msh");
   const auto request = std::make_shared<MeshRequest>();
   command->add_option("SCENE", request->scene, "the scene, a YAML file")->required();
   command->add_option("--out", request->out, "the file: .msh (Gmsh 4.1), .stl, .obj or .ply")->required();

@@ -9,6 +9,7 @@ namespace talus::coupler {
 void add_regress(CLI::App& app, Chosen& chosen) {
   auto* command =
       app.add_subcommand("regress", "run the scenes of a folder and compare them with their baselines");
+  command->footer("Example:\n  talus regress configs/regression");
   const auto request = std::make_shared<regress::RegressRequest>();
   command->add_option("DIR", request->folder, "the folder, such as configs/regression")->required();
   command->add_option("--out", request->out, "folder of the results and of junit.xml")->capture_default_str();

@@ -30,6 +30,7 @@ core::ExitCode print_study_schema() {
 void add_study(CLI::App& app, Chosen& chosen) {
   auto* command =
       app.add_subcommand("study", "measure what accuracy costs in time: a scene over steps and methods");
+  command->footer("Example:\n  talus study configs/studies/cable_net_step.yaml");
   const auto request = std::make_shared<study::StudyRequest>();
   auto* study = command->add_option("STUDY", request->study, "the study, a YAML file");
   const auto schema = std::make_shared<bool>(false);
