@@ -113,18 +113,12 @@ struct Present {
   double time = 0, next_window = 0;  ///< s
 };
 
-/// The values of the interface's nodes, in their order.
-void gather(const std::vector<Index>& nodes, std::span<const double> from, std::span<double> to) {
-  for (std::size_t i = 0; i < nodes.size(); ++i)
-    Vector3::Map(&to[3 * i]) = Vector3::Map(&from[3 * static_cast<std::size_t>(nodes[i])]);
-}
-
 void publish_motion(Integrator& integrator, const coupler::StructureFields& fields, const Present& present) {
-  const auto& nodes = integrator.interface().nodes();
-  gather(nodes, integrator.displacement(), fields.displacement);
-  gather(nodes, integrator.velocity(), fields.velocity);
+  const InterfaceForce& interface = integrator.interface();
+  interface.pick(integrator.displacement(), fields.displacement);
+  interface.pick(integrator.velocity(), fields.velocity);
   if (!fields.free_velocity.empty())
-    gather(nodes, integrator.free_velocity(present.time, present.next_window), fields.free_velocity);
+    interface.pick(integrator.free_velocity(present.time, present.next_window), fields.free_velocity);
 }
 
 void obey(const coupler::Command& command, Structure& structure, coupler::Participant& participant) {

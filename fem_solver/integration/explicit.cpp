@@ -25,11 +25,11 @@ ExplicitSolver::ExplicitSolver(const Model& model, Assembly& assembly, double st
   state_.reactions.assign(reaction_count(model), 0);
   for (const auto& initial : model.initial_velocities)
     for (const Index node : initial.nodes) Vector3::Map(&state_.velocity[3 * node]) = initial.velocity;
-  inverse_mass_.resize(model.node_masses.size());
-  std::ranges::transform(model.node_masses, inverse_mass_.begin(),
-                         [](double m) { return m > 0 ? 1 / m : 0; });
+  for (const double m : model.node_masses) inverse_mass_.insert(inverse_mass_.end(), 3, m > 0 ? 1 / m : 0);
+  if (model.damping.mass > 0)
+    for (const double m : model.node_masses) mass_.insert(mass_.end(), 3, m);
   if (model.damping.stiffness > 0) damping_force_.resize(values);
-  sum_.reserve(model.nodes());
+  sum_.reserve(static_cast<std::int64_t>(values));
   for (const auto& slide : model.constrained_slides) slides_.emplace_back(model, slide.line);
 }
 
@@ -123,7 +123,7 @@ std::span<const double> ExplicitSolver::free_velocity(double time, double step) 
   const double kick = 0.5 * (state_.previous_step + step), half_damping = 0.5 * model_.damping.mass * kick;
   for (std::size_t i = 0; i < free_velocity_.size(); ++i)
     free_velocity_[i] =
-        ((1 - half_damping) * state_.velocity[i] + kick * inverse_mass_[i / 3] * free_velocity_[i]) /
+        ((1 - half_damping) * state_.velocity[i] + kick * inverse_mass_[i] * free_velocity_[i]) /
         (1 + half_damping);
   for_each_support(model_, [&](const Support& support, std::size_t dof, std::size_t) {
     const Vector3 target = support.history.at(time + step) * support.displacement;
@@ -158,24 +158,44 @@ void ExplicitSolver::impose_supports(double time, double step) noexcept {
   });
 }
 
+/// Eight directions at a time, their sums apart: a fixed order that fits vector registers.
+template <bool damped>
+double ExplicitSolver::advance_values(const Leap& leap, core::Block values) noexcept {
+  constexpr std::int64_t width = 8;
+  double* __restrict velocity = state_.velocity.data();
+  double* __restrict displacement = state_.displacement.data();
+  const double* __restrict force = state_.force.data();
+  const double* __restrict inverse_mass = inverse_mass_.data();
+  const double* __restrict mass = mass_.data();
+  const double half_after = 0.5 * leap.step;
+  const auto advance = [&](std::int64_t i) {
+    const double before = velocity[i];
+    const double after = (damped ? leap.keep * before : before) + leap.gain * inverse_mass[i] * force[i];
+    velocity[i] = after;
+    displacement[i] += leap.step * after;
+    return damped ? mass[i] * ((before + after) * (leap.half_before * before + half_after * after))
+                  : after * after;
+  };
+  std::array<double, width> sums{};
+  std::int64_t i = values.begin;
+  for (; i + width <= values.end; i += width)
+    for (std::int64_t lane = 0; lane < width; ++lane) sums[lane] += advance(i + lane);
+  double sum = 0;
+  for (; i < values.end; ++i) sum += advance(i);
+  for (const double lane : sums) sum += lane;
+  return sum;
+}
+
 template <class MassDamping>
 double ExplicitSolver::advance_nodes(double step) noexcept {
   constexpr bool damped = std::is_same_v<MassDamping, MassDampingTerm>;
   const double half_damping = 0.5 * model_.damping.mass * state_.kick;
-  const double keep = (1 - half_damping) / (1 + half_damping), gain = state_.kick / (1 + half_damping);
-  const double half_before = 0.5 * state_.previous_step, half_after = 0.5 * step;
-  const double sum = sum_(model_.nodes(), 0.0, [&](std::int64_t node) {
-    const double mass = model_.node_masses[node], kick_over_mass = gain * inverse_mass_[node];
-    double sum_of_node = 0;
-    for (std::int64_t i = 3 * node; i < 3 * node + 3; ++i) {
-      const double before = state_.velocity[i];
-      const double after = (damped ? keep * before : before) + kick_over_mass * state_.force[i];
-      state_.velocity[i] = after;
-      state_.displacement[i] += step * after;
-      sum_of_node += damped ? (before + after) * (half_before * before + half_after * after) : after * after;
-    }
-    return mass * sum_of_node;
-  });
+  const Leap leap{.keep = (1 - half_damping) / (1 + half_damping),
+                  .gain = state_.kick / (1 + half_damping),
+                  .half_before = 0.5 * state_.previous_step,
+                  .step = step};
+  const double sum = sum_.of_blocks(static_cast<std::int64_t>(state_.velocity.size()), 0.0,
+                                    [&](core::Block values) { return advance_values<damped>(leap, values); });
   if constexpr (damped) state_.damped += 0.5 * model_.damping.mass * sum;
   return sum;
 }
@@ -279,7 +299,7 @@ void ExplicitSolver::add_kinetic(EnergyBalance& balance) const {
   double twice_kinetic = 0, damped_behind = 0;
   for (std::size_t i = 0; i < state_.velocity.size(); ++i) {
     const double mass = model_.node_masses[i / 3], v = state_.velocity[i];
-    const double change = state_.kick * inverse_mass_[i / 3] * state_.force[i];
+    const double change = state_.kick * inverse_mass_[i] * state_.force[i];
     const double after = at_start ? ((1 - half_damping) * v + change) / (1 + half_damping) : v;
     const double before = at_start ? 2 * v - after : ((1 + half_damping) * v - change) / (1 - half_damping);
     twice_kinetic += mass * before * after;

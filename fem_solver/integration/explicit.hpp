@@ -103,8 +103,16 @@ class ExplicitSolver final : public Integrator {
   /// Replaces the force on supported directions by the one that leads to their prescribed position at the
   /// step's end.
   void impose_supports(double time, double step) noexcept;
-  /// Sum of mass times velocity squared, or what mass damping dissipates (J): finite as long as every
-  /// velocity is.
+  /// A step of the leapfrog in numbers.
+  struct Leap {
+    double keep = 1;         ///< of the velocity before
+    double gain = 0;         ///< s; times force over mass
+    double half_before = 0;  ///< s
+    double step = 0;         ///< s
+  };
+  template <bool damped>
+  double advance_values(const Leap& leap, core::Block values) noexcept;
+  /// Sum of velocities squared, or what mass damping dissipates (J): finite as long as every velocity is.
   template <class MassDamping>
   double advance_nodes(double step) noexcept;
   /// Takes sliders back to their ropes after a free step.
@@ -126,7 +134,8 @@ class ExplicitSolver final : public Integrator {
   std::optional<StepWatch> watch_;
   std::vector<SlideRun> slides_;         ///< of the model's constrained slides
   std::vector<double> velocity_before_;  ///< m/s; of the step in progress, where there are slides
-  std::vector<double> inverse_mass_;     ///< 1/kg; 0 for a node without mass
+  std::vector<double> inverse_mass_;     ///< 1/kg; of each direction, 0 for a node without mass
+  std::vector<double> mass_;             ///< kg; of each direction, only where the scene names mass damping
   std::vector<double> damping_force_;    ///< N; b K v, only where the scene names stiffness damping
   std::vector<double> free_velocity_;    ///< m/s; only where somebody asks for it
   core::OrderedSum<> sum_;

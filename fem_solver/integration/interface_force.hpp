@@ -18,9 +18,21 @@ class InterfaceForce {
   /// @param nodes the structure's nodes that can be touched; none in a run on its own
   explicit InterfaceForce(std::vector<Index> nodes) : nodes_(std::move(nodes)), force_(3 * nodes_.size()) {
     touched_.reserve(nodes_.size());
+    for (std::size_t k = 0; k < nodes_.size(); ++k)
+      in_order_ = in_order_ && nodes_[k] == static_cast<Index>(k);
   }
 
   const std::vector<Index>& nodes() const noexcept { return nodes_; }
+
+  /// Values of nodes() in turn (3 a node) out of those of all nodes.
+  void pick(std::span<const double> of_all, std::span<double> of_interface) const noexcept {
+    if (in_order_) {
+      std::copy_n(of_all.begin(), of_interface.size(), of_interface.begin());
+      return;
+    }
+    for (std::size_t k = 0; k < nodes_.size(); ++k)
+      core::Vector3::Map(&of_interface[3 * k]) = core::Vector3::Map(&of_all[3 * nodes_[k]]);
+  }
 
   /// @param force N, 3 for each of nodes() in turn
   void set(std::span<const double> force) noexcept {
@@ -41,6 +53,7 @@ class InterfaceForce {
   std::vector<Index> nodes_;
   std::vector<double> force_;         ///< N
   std::vector<std::size_t> touched_;  ///< places in nodes_
+  bool in_order_ = true;              ///< nodes_ are the structure's first ones
 };
 
 }  // namespace talus::fem
