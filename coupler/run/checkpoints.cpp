@@ -79,12 +79,12 @@ void Checkpoints::write(std::int64_t window) {
   std::vector<double> window_length{plan_.span.window_length};
   writer.count("window", window);
   writer.values("window_length", window_length);
-  archive_(writer);
   for (Peer* peer : session_.peers()) {
     const Part part(*peer, plan_.folder);
     session_.ask(*peer, command(Action::write_checkpoint, window, plan_.span, part.path));
     writer.bytes(part.name, bytes_of(part.path));
   }
+  archive_(writer);  // last: with this command the particles have booked the work of the last window
   writer.commit();
   last_ = Clock::now();
 }

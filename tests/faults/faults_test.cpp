@@ -36,7 +36,7 @@ struct Faults {
   std::string structure = "none", particles = "none";
   int at = 20;
   std::string coupling = "timeout: 60 s, join_timeout: 60 s";
-  std::string by_hand;  ///< the side that the test starts itself
+  std::string by_hand{};  ///< the side that the test starts itself
 };
 
 /// `talus run` on two dummy solvers of which one misbehaves.
