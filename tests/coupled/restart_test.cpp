@@ -17,7 +17,7 @@ namespace {
 class Example {
  public:
   struct Course {
-    const char *name, *window, *end, *checkpoint_every;
+    const char *name, *window, *end, *checkpoint_every, *more = "";
   };
   explicit Example(const Course& course) {
     std::ofstream(scene_) << "extends: " << TALUS_SOURCE_DIR << "/configs/examples/" << course.name
@@ -25,7 +25,8 @@ class Example {
                           << "time: {end: " << course.end << "}\n"
                           << "output: {fields_every: 0.1 s, every: 2 ms}\n"
                           << "coupling: {window: " << course.window
-                          << ", checkpoint_every: " << course.checkpoint_every << "}\n";
+                          << ", checkpoint_every: " << course.checkpoint_every << "}\n"
+                          << course.more;
   }
   std::filesystem::path folder(const std::string& name) const { return folder_.path() / name; }
 
@@ -68,7 +69,8 @@ class Example {
 
 constexpr Example::Course hanging_net{"hanging_net", "1 ms", "0.3 s", "1 us"},
     implicit_net{"hanging_net_implicit", "4 ms", "0.3 s", "1 us"},
-    rock_on_net{"cable_net", "50 us", "0.08 s", "20 ms"};  // the rock has touched the net at 0.036 s
+    rock_on_net{"cable_net", "50 us", "0.08 s", "20 ms",  // moved close: it touches the net from 2 ms on
+                "particles: {spheres: {boulder: {at: [1.5, 1.729, 0.22]}}}\n"};
 
 }  // namespace
 
