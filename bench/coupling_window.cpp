@@ -95,8 +95,7 @@ double median(std::vector<double> values) {
 template <class Window>
 double microseconds_a_window(Window&& compute) {
   const auto begin = std::chrono::steady_clock::now();
-  for (int n = 0; n < windows_a_repetition; ++n)
-    compute(coupler::Window{.index = n, .length = window_length});
+  for (int n = 0; n < windows_a_repetition; ++n) compute(coupler::Window{.index = n, .unit = window_length});
   return std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - begin).count() /
          windows_a_repetition;
 }
@@ -127,7 +126,7 @@ void measure(int nodes, const char* mapping, const coupler::InterfacePlan& plan)
   const pid_t second = fork_participant(name, coupler::Role::particles, serve_particles);
   session.wait_joined();
   const auto interface = coupler::introduce(session, plan);
-  coupler::lay_out_arrays(session, interface, window_length, coupler::Order::in_turn);
+  coupler::lay_out_arrays(session, interface, {window_length}, coupler::Order::in_turn);
   coupler::Exchange exchange(session, interface->tie.mapping);
 
   std::vector<double> full, floor;

@@ -43,12 +43,12 @@ Outcome impact(const test::SphereOnSpring& system, const test::Undivided& refere
                MakeScheme&& make_scheme) {
   test::SphereState sphere;
   test::CoupledPair pair([&](auto& p) { test::serve_structure(p, system); },
-                         [&](auto& p) { test::serve_sphere(p, system, sphere); }, length);
+                         [&](auto& p) { test::serve_sphere(p, system, sphere); }, {length});
   auto scheme = make_scheme(pair.exchange());
   double peak = 0;
   std::int64_t n = 0;
   for (; static_cast<double>(n) * length < reference.contact; ++n) {
-    scheme.compute(pair.exchange(), {.index = n, .length = length});
+    scheme.compute(pair.exchange(), {.index = n, .unit = length});
     peak = std::max(peak, -pair.displacement());
   }
   const test::TrapezoidalMass node{.mass = system.structure_mass,

@@ -31,10 +31,12 @@ std::string text_of(const Header& header) {
 Command command_of(const CommandRecord& record) {
   return {.action = static_cast<Action>(record.action),
           .fields = record.fields != 0,
+          .tentative = record.tentative != 0,
           .window = record.window,
-          .iteration = static_cast<std::int32_t>(record.iteration),
+          .iteration = record.iteration,
           .time = record.time,
           .length = record.length,
+          .regular_length = record.regular_length,
           .path = std::string(record.path.data(), strnlen(record.path.data(), record.path.size()))};
 }
 
@@ -181,8 +183,7 @@ void ChannelParticipant::meter_before(const Command& command) {
   const auto force = array(ArrayName::force), displacement = array(ArrayName::displacement);
   if (meter_) channel_.work += meter_->end(force, displacement);  // of the particles' last window
   meter_.reset();
-  if (command.action == Action::save_state) iterated_window_ = command.window;
-  if (command.action != Action::advance || command.window == iterated_window_) return;
+  if (command.action != Action::advance || command.tentative) return;
   meter_.emplace(declaration_.takes_several_steps(command.length) ? ForceMeaning::mean
                                                                   : ForceMeaning::at_start);
   if (options_.role == Role::structure)
@@ -192,14 +193,13 @@ void ChannelParticipant::meter_before(const Command& command) {
 void ChannelParticipant::meter_after() {
   if (!meter_) return;
   const auto force = array(ArrayName::force), displacement = array(ArrayName::displacement);
-  const auto end = array(ArrayName::end_displacement);
   if (options_.role == Role::structure) {
     channel_.work += meter_->end(force, displacement);
-  } else if (end.empty()) {
+  } else if (!declaration_.takes_several_steps(command_.length)) {
     meter_->begin(force, {displacement, array(ArrayName::velocity)}, command_.length);
     return;  // the boundary's new place comes with the next command
   } else {
-    channel_.work += work_on_path(force, displacement, end);
+    channel_.work += work_on_path(force, displacement, array(ArrayName::end_displacement));
   }
   meter_.reset();
 }

@@ -54,7 +54,7 @@ class ChannelParticipant final : public Participant {
   }
   void map_arrays();
   // The ledger of the interface: each side sums the work on its own surface, whose values its core has just
-  // written or is about to read. In windows that are iterated the coupler does, once they are accepted.
+  // written or is about to read. In windows that may be taken back the coupler does, once they are accepted.
   void meter_before(const Command& command);
   void meter_after();
   std::span<double> array(transport::ArrayName name) const { return arrays_[static_cast<std::size_t>(name)]; }
@@ -68,8 +68,7 @@ class ChannelParticipant final : public Participant {
   JoinOptions options_;
   Stage stage_ = Stage::joined;
   std::string waited_for_ = "the coupler to begin";
-  Command command_;                    ///< the last one
-  std::int64_t iterated_window_ = -1;  ///< the last one whose start was saved
+  Command command_;  ///< the last one
   Declaration declaration_;
   std::optional<WorkMeter> meter_;  ///< of a window of a weak scheme
   std::size_t surface_nodes_ = 0;

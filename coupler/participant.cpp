@@ -1,5 +1,8 @@
 #include "coupler/participant.hpp"
 
+#include <filesystem>
+#include <fstream>
+
 #include "core/program/log.hpp"
 #include "coupler/channel_participant.hpp"
 #include "coupler/transport/segment.hpp"
@@ -28,6 +31,22 @@ core::ExitCode take_part(const JoinOptions& options, const std::function<void(Pa
   } catch (const std::exception& error) {
     participant->fail(error);
     return core::exit_code(error);
+  }
+}
+
+void checkpoint_state(const Command& command, std::span<std::byte> state) {
+  const auto size = static_cast<std::streamsize>(state.size());
+  if (command.action == Action::write_checkpoint) {
+    std::ofstream file(command.path, std::ios::binary);
+    if (!file.write(reinterpret_cast<const char*>(state.data()), size).flush())
+      throw std::runtime_error("cannot write the checkpoint " + command.path);
+  }
+  if (command.action == Action::read_checkpoint) {
+    std::error_code absent;
+    if (std::filesystem::file_size(command.path, absent) != state.size() || absent)
+      throw core::ConfigError("the checkpoint " + command.path + " does not hold a state of " +
+                              std::to_string(state.size()) + " bytes");
+    std::ifstream(command.path, std::ios::binary).read(reinterpret_cast<char*>(state.data()), size);
   }
 }
 

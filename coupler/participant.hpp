@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -36,14 +37,17 @@ enum class Action : std::uint32_t {
   finish,            ///< no more commands; leave
 };
 
-/// One command. Time is counted in windows: time = start of run + window x length, never accumulated.
+/// One command. Time is counted in integers, never accumulated; windows may differ in length from one to the
+/// next.
 struct Command {
   Action action = Action::finish;
   bool fields = false;         ///< report: field frames are wanted too
-  std::int64_t window = 0;     ///< index of the window, from 0
+  bool tentative = false;      ///< advance: the window may be taken back; its work is booked by the coupler
+  std::int64_t window = 0;     ///< index of the regular window in which this one begins, from 0
   std::int32_t iteration = 0;  ///< of a strong scheme, from 0
   double time = 0;             ///< s; the start of the window
   double length = 0;           ///< s; of the window
+  double regular_length = 0;   ///< s; of a window in which nothing makes the coupler choose another
   std::string path{};          ///< of a checkpoint
 };
 
@@ -146,6 +150,11 @@ class Participant {
 /// says it to the user. Only where the coupler itself is gone does this program say so. Never throws but what
 /// join() throws.
 core::ExitCode take_part(const JoinOptions& options, const std::function<void(Participant&)>& serve);
+
+/// Answers write_checkpoint and read_checkpoint for a state that is one block of plain memory; does nothing
+/// for other commands. @throws ConfigError where the checkpoint holds a state of another size or cannot be
+/// read, std::runtime_error where it cannot be written
+void checkpoint_state(const Command& command, std::span<std::byte> state);
 
 /// Answers Action::report from a source; the same for every solver.
 void report(Participant& participant, const Command& command, const core::OutputSource& source);

@@ -49,12 +49,14 @@ ParticleSolver& ParticleSolver::operator=(ParticleSolver&& other) noexcept = def
 ParticleSolver::~ParticleSolver() = default;
 
 void ParticleSolver::step() {
+  kick_ = 0.5 * (last_step() + step_);
   boundary_.drift(time());
   find_neighbours();
   clear_loads();
   evaluate_contacts();
   move_spheres();
   if (!gates_.empty()) gates_.watch(spheres_, rocks_);
+  previous_step_ = step_;
   ++steps_done_;
 }
 
@@ -134,7 +136,7 @@ ContactStage ParticleSolver::contact_stage() noexcept {
           .boundary_list = boundary_list_,
           .table = pairs_,
           .implicit_contact = implicit_contact_ ? &*implicit_contact_ : nullptr,
-          .step = step_,
+          .step = last_step(),
           .threads = threads_};
 }
 
@@ -152,7 +154,7 @@ void ParticleSolver::evaluate_contacts() noexcept {
 }
 
 void ParticleSolver::move_spheres() {
-  const LeapfrogStep how{.gravity = gravity_, .step = step_, .threads = threads_};
+  const LeapfrogStep how{.gravity = gravity_, .step = step_, .kick = kick_, .threads = threads_};
   MotionSummary motion = kick_and_drift(spheres_, how);
   if (!rocks_.empty()) {
     rocks_.move(spheres_, place_, how);
@@ -181,7 +183,7 @@ void ParticleSolver::report_not_finite() const {
 
 double ParticleSolver::gravity_work_level() const noexcept {
   // After a step the positions are one drift ahead of the last forces.
-  const double back = steps_done_ > 0 ? step_ : 0;
+  const double back = previous_step_;
   const auto level = [&](double mass, const Triple<double>& position, const Triple<double>& velocity) {
     return mass * dot(gravity_, position - back * velocity);
   };
@@ -196,7 +198,7 @@ double ParticleSolver::gravity_work_level() const noexcept {
 }
 
 void ParticleSolver::add_spheres_to(ParticleLedger& ledger) const noexcept {
-  const double back = steps_done_ > 0 ? step_ : 0;
+  const double back = kick_;
   for (Index i = 0; i < spheres_.size(); ++i) {
     if (spheres_.in_rock(i)) continue;
     const double mass = spheres_.velocity[i].w, radius = spheres_.position[i].w;
@@ -214,7 +216,7 @@ ParticleLedger ParticleSolver::ledger() const noexcept {
   ParticleLedger ledger{.damping = work_.damping, .friction = work_.friction, .boundary = work_.boundary};
   add_spheres_to(ledger);
   for (Index k = 0; k < rocks_.size(); ++k) {
-    const Rocks::Energy energy = rocks_.energy(k, gravity_, steps_done_ > 0 ? step_ : 0);
+    const Rocks::Energy energy = rocks_.energy(k, gravity_, kick_);
     ledger.kinetic += energy.translation;
     ledger.rotation += energy.rotation;
   }

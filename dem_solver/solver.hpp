@@ -113,6 +113,8 @@ class ParticleSolver {
   [[noreturn]] void report_not_finite() const;
   ContactStage contact_stage() noexcept;
   double gravity_work_level() const noexcept;
+  /// s; the velocity of the first step belongs to the middle of one as long before it
+  double last_step() const noexcept { return steps_done_ > 0 ? previous_step_ : step_; }
   void add_spheres_to(ParticleLedger& ledger) const noexcept;
 
   Spheres spheres_;
@@ -122,7 +124,9 @@ class ParticleSolver {
   PairTable pairs_;
   LawChoice law_;
   Triple<double> gravity_;
-  double step_ = 0;
+  double step_ = 0;           ///< s; of the step to come
+  double previous_step_ = 0;  ///< s; 0 before the first
+  double kick_ = 0;           ///< s; of the last step
   double skin_ = 0;
   std::optional<ImplicitContact> implicit_contact_;
   int threads_ = 1;
@@ -170,6 +174,8 @@ void ParticleSolver::visit_state(Self& self, const Visitor& visit) {
   visit("clock_time", self.clock_time_);
   visit("clock_steps", self.clock_steps_);
   visit("step", self.step_);
+  visit("previous_step", self.previous_step_);
+  visit("kick", self.kick_);
   visit("searches", self.searches_);
   visit("sweeps", self.sweeps_);
   visit("unconverged_steps", self.unconverged_steps_);

@@ -20,6 +20,11 @@ void IqnIls::begin_window() {
                 [this](const Column& column) { return column.window + settings_.reused_windows < window_; });
 }
 
+void IqnIls::forget() {
+  columns_.clear();
+  used_ = 0;
+}
+
 void IqnIls::start_in(Index unknowns) {
   const auto most = static_cast<Index>(settings_.most_columns);
   residual_changes_.resize(unknowns, most);

@@ -44,7 +44,7 @@ class IqnIls {
 
   void begin_window();
   void update(std::span<double> x, std::span<const double> made);
-  void end_window(std::span<const double>, std::span<const double>) {}
+  void forget();
   std::size_t columns() const { return columns_.size(); }
   /// The columns and their products.
   void archive(core::StateArchive& archive);

@@ -11,8 +11,9 @@
 /// An acceleration is a type with
 ///     void begin_window();                                              the next update is a window's first
 ///     void update(std::span<double> x, std::span<const double> made);   x becomes the next iterate
-///     void end_window(std::span<const double> x, std::span<const double> made);   the window has converged
-///     with these
+///     void forget();                                                    of windows of another length: what
+///     was
+///                                                                       learnt in them does not hold
 ///     void archive(core::StateArchive& archive);   writes or reads what later windows depend on
 namespace talus::core {
 class StateArchive;
@@ -26,7 +27,7 @@ struct NoAcceleration {
   void update(std::span<double> x, std::span<const double> made) {
     std::copy(made.begin(), made.end(), x.begin());
   }
-  void end_window(std::span<const double>, std::span<const double>) {}
+  void forget() {}
   void archive(core::StateArchive&) {}
 };
 
@@ -37,7 +38,7 @@ struct FixedRelaxation {
   void update(std::span<double> x, std::span<const double> made) {
     for (std::size_t i = 0; i < x.size(); ++i) x[i] += factor * (made[i] - x[i]);
   }
-  void end_window(std::span<const double>, std::span<const double>) {}
+  void forget() {}
   void archive(core::StateArchive&) {}
 };
 
@@ -60,7 +61,7 @@ class Aitken {
 
   void begin_window() { residual_.clear(); }
   void update(std::span<double> x, std::span<const double> made);
-  void end_window(std::span<const double>, std::span<const double>) {}
+  void forget() { factor_ = initial_; }
   double factor() const { return factor_; }
   void archive(core::StateArchive& archive);
 

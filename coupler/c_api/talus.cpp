@@ -78,6 +78,7 @@ coupler::Declaration declaration_from(const talus_declaration& said) {
   coupler::Declaration declaration;
   declaration.program = said.program;
   declaration.step = said.step;
+  declaration.checkpoints = said.checkpoints != 0;
   if (said.stable_step > 0) {
     declaration.limits = {
         {.name = "largest stable step", .seconds = said.stable_step, .reason = "named by the program"}};
@@ -156,6 +157,15 @@ talus_result talus_get_particle_fields(talus_participant* particles, talus_parti
 
 talus_result talus_get_probes(talus_participant* participant, double** values) {
   return guarded([&] { given(values) = given(participant).participant->probes().data(); });
+}
+
+talus_result talus_checkpoint_state(const talus_command* command, void* state, size_t bytes) {
+  return guarded([&] {
+    coupler::Command about;
+    about.action = static_cast<Action>(given(command).action);
+    about.path = given(command).path;
+    coupler::checkpoint_state(about, {static_cast<std::byte*>(state), bytes});
+  });
 }
 
 void talus_fail(talus_participant* participant, const char* reason) {

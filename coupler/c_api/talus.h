@@ -1,6 +1,7 @@
 #ifndef TALUS_C_API_TALUS_H
 #define TALUS_C_API_TALUS_H
 
+#include <stddef.h>
 #include <stdint.h>
 
 /* Take part in a coupled Talus run with a program in C, or in any language that can call C. Link with
@@ -64,6 +65,7 @@ typedef struct {
   double stable_step;       /* s; the largest stable step; 0: no limit */
   int64_t probes;           /* columns of probes.csv */
   const char** probe_names; /* "middle.displacement_z_m" */
+  int checkpoints;          /* 1: it answers TALUS_WRITE_CHECKPOINT and TALUS_READ_CHECKPOINT */
 } talus_declaration;
 
 typedef struct {
@@ -95,6 +97,10 @@ talus_result talus_answer(talus_participant* participant);
 talus_result talus_get_structure_fields(talus_participant* structure, talus_structure_fields* fields);
 talus_result talus_get_particle_fields(talus_participant* particles, talus_particle_fields* fields);
 talus_result talus_get_probes(talus_participant* participant, double** values); /* where a report puts them */
+
+/* Answers TALUS_WRITE_CHECKPOINT and TALUS_READ_CHECKPOINT for a state that is one block of memory without
+ * pointers; does nothing for other commands. Others write what they like to command.path. */
+talus_result talus_checkpoint_state(const talus_command* command, void* state, size_t bytes);
 
 /* Says why the participant cannot go on; the coupler stops the run and shows the text. */
 void talus_fail(talus_participant* participant, const char* reason);

@@ -8,6 +8,7 @@
 
 #include "core/errors.hpp"
 #include "core/output/checkpoint.hpp"
+#include "coupler/schemes/commands.hpp"
 
 namespace talus::coupler {
 namespace {
@@ -45,12 +46,10 @@ void write_bytes(const fs::path& path, const std::vector<std::byte>& bytes) {
   if (!file.flush()) throw std::runtime_error("cannot write " + path.string());
 }
 
-Command command(Action action, std::int64_t window, const Span& span, const fs::path& path) {
-  return {.action = action,
-          .window = window,
-          .time = static_cast<double>(window) * span.window_length,
-          .length = span.window_length,
-          .path = path.string()};
+Command about_checkpoint(const Window& window, Action action, const fs::path& path) {
+  Command command = command_at(window, action);
+  command.path = path.string();
+  return command;
 }
 
 }  // namespace
@@ -81,7 +80,7 @@ void Checkpoints::write(std::int64_t window) {
   writer.values("window_length", window_length);
   for (Peer* peer : session_.peers()) {
     const Part part(*peer, plan_.folder);
-    session_.ask(*peer, command(Action::write_checkpoint, window, plan_.span, part.path));
+    session_.ask(*peer, about_checkpoint(plan_.span.window(window), Action::write_checkpoint, part.path));
     writer.bytes(part.name, bytes_of(part.path));
   }
   archive_(writer);  // last: with this command the particles have booked the work of the last window
@@ -108,7 +107,7 @@ void RestartPoint::restore(Session& session, const fs::path& folder, const Archi
   for (Peer* peer : session.peers()) {
     const Part part(*peer, folder);
     write_bytes(part.path, reader_->bytes(part.name));
-    session.ask(*peer, command(Action::read_checkpoint, window_, span_, part.path));
+    session.ask(*peer, about_checkpoint(span_.window(window_), Action::read_checkpoint, part.path));
   }
   archive(*reader_);
 }

@@ -13,11 +13,12 @@
 /// From a scene's choice to the types that compute it: all combinations of scheme, unknown and acceleration.
 namespace talus::coupler {
 
-inline Convergence convergence_of(const ImplicitScene& scene) {
+inline Convergence convergence_of(const ImplicitScene& scene, std::int64_t most_halvings) {
   const ToleranceScene tolerance = scene.tolerance.value_or(ToleranceScene{});
   return {.relative = tolerance.relative,
           .absolute = {tolerance.displacement, tolerance.velocity, tolerance.force},
           .most_iterations = static_cast<int>(scene.iterations),
+          .most_halvings = most_halvings,
           .fail_otherwise = scene.not_converged == ImplicitScene::NotConverged::error};
 }
 
@@ -37,13 +38,18 @@ inline IqnIls make_acceleration(const IqnIlsScene& scene) {
                  .filter = scene.filter});
 }
 
-/// Calls `use(scheme)` with the scheme that the scene names. @param node_mass mean mass behind a node of Ω_D,
-/// kg
+/// What a scheme needs besides its own section.
+struct SchemeFacts {
+  double node_mass = 0;            ///< kg; mean mass behind a node of Ω_D
+  std::int64_t most_halvings = 0;  ///< of a window that does not converge
+};
+
+/// Calls `use(scheme)` with the scheme that the scene names.
 template <class Use>
 class SchemeChoice {
  public:
-  SchemeChoice(Exchange& exchange, double node_mass, Use use)
-      : exchange_(exchange), node_mass_(node_mass), use_(std::move(use)) {}
+  SchemeChoice(Exchange& exchange, const SchemeFacts& facts, Use use)
+      : exchange_(exchange), facts_(facts), use_(std::move(use)) {}
 
   void operator()(std::monostate) { (*this)(SerialExplicitScene{}); }
   void operator()(const SerialExplicitScene&) { use_once(SerialExplicit{}); }
@@ -56,7 +62,7 @@ class SchemeChoice {
     }
   }
   void operator()(const ParallelImplicitScene& scene) {
-    use_implicit(MotionAndForceUnknown(exchange_, node_mass_), scene.common);
+    use_implicit(MotionAndForceUnknown(exchange_, facts_.node_mass), scene.common);
   }
 
  private:
@@ -68,14 +74,14 @@ class SchemeChoice {
   void use_implicit(Unknown unknown, const ImplicitScene& scene) {
     std::visit(
         [&](const auto& acceleration) {
-          use_once(Implicit(std::move(unknown), make_acceleration(acceleration), convergence_of(scene),
-                            scene.predictor));
+          use_once(Implicit(std::move(unknown), make_acceleration(acceleration),
+                            convergence_of(scene, facts_.most_halvings), scene.predictor));
         },
         scene.acceleration);
   }
 
   Exchange& exchange_;
-  double node_mass_;
+  SchemeFacts facts_;
   Use use_;
 };
 

@@ -57,6 +57,16 @@ std::unique_ptr<Session> open_session(const CouplingScene& coupling) {
                                                   .interrupted = core::stop_requested});
 }
 
+/// In a window that grew, one step would be as long, over whatever stands in its way.
+void refuse_growth_without_steps(Session& session) {
+  for (const Peer* peer : session.peers())
+    if (peer->declaration().step <= 0)
+      throw core::ConfigError(
+          fmt::format("coupling.longest_window: windows grow only where both sides have steps of their own "
+                      "(`time.step`, or `step` of the side); {} takes one step a window, whatever its length",
+                      peer->declaration().program));
+}
+
 }  // namespace
 
 PreparedRun prepare(const PrepareOptions& options) {
@@ -84,8 +94,12 @@ PreparedRun prepare(const PrepareOptions& options) {
   std::optional<InterfacePlan> plan;
   if (run.scene.interface) plan = plan_of(*run.scene.interface);
   run.interface = introduce(*run.session, plan, std::move(complaints));
-  lay_out_arrays(*run.session, run.interface, run.window_length(), run.scene.coupling.order());
-  run.limits = check_limits(*run.session, run.window_length());
+  if (run.scene.coupling.longest_window) refuse_growth_without_steps(*run.session);
+  const WindowLengths windows{
+      .regular = run.window_length(),
+      .longest = run.window_length() * static_cast<double>(run.scene.longest_window())};
+  lay_out_arrays(*run.session, run.interface, windows, run.scene.coupling.order());
+  run.limits = check_limits(*run.session, windows.longest);
   return run;
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "coupler/schemes/commands.hpp"
+
 namespace talus::coupler {
 
 Reporter::Reporter(Session& session, core::ResultWriter& results, Plan plan, core::ProgressStyle style)
@@ -26,20 +28,22 @@ void Reporter::at(std::int64_t window) {
   progress_.update(state(window));
 }
 
+std::int64_t Reporter::next_due() const {
+  const std::int64_t row = plan_.rows.next();
+  return plan_.frames ? std::min(row, plan_.frames->next()) : row;
+}
+
 void Reporter::last(std::int64_t window) {
   if (written_ < window) write(window, plan_.frames.has_value());
   progress_.finish(state(window));
 }
 
 void Reporter::write(std::int64_t window, bool frame) {
-  const double time = static_cast<double>(window) * plan_.span.window_length;
-  session_.ask_all({.action = Action::report,
-                    .fields = frame,
-                    .window = window,
-                    .time = time,
-                    .length = plan_.span.window_length});
-  results_.write_row(time);
-  if (frame) results_.write_fields(time);
+  Command report = command_at(plan_.span.window(window), Action::report);
+  report.fields = frame;
+  session_.ask_all(report);
+  results_.write_row(report.time);
+  if (frame) results_.write_fields(report.time);
   plan_.rows.done(window);
   if (plan_.frames) plan_.frames->done(window);
   written_ = window;

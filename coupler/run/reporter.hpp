@@ -22,6 +22,8 @@ class Reporter {
   void begin_at(std::int64_t window);
   /// The state at the start of window `n`, where it is due.
   void at(std::int64_t window);
+  /// The window at whose start something is written next; none is due at the one given to at() last.
+  std::int64_t next_due() const;
   /// The state the run ends with.
   void last(std::int64_t window);
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <numeric>
 
@@ -14,6 +15,7 @@
 #include "coupler/run/reporter.hpp"
 #include "coupler/run/sources.hpp"
 #include "coupler/run/summary.hpp"
+#include "coupler/schemes/free_flight.hpp"
 #include "coupler/schemes/uncoupled.hpp"
 
 namespace talus::coupler {
@@ -22,6 +24,7 @@ namespace {
 using core::RunStatus;
 
 constexpr double rows_of_a_run = 200;  // where output.every is not given
+constexpr std::int64_t one_window = 1;
 
 Reporter::Plan plan_of(const PreparedRun& run) {
   const Span span{.end = run.scene.time.end, .window_length = run.window_length()};
@@ -43,14 +46,15 @@ struct Course {
   std::optional<double> checkpoint_every;
 
   /// Windows from the first to the last, or to a request to stop between two of them.
-  /// @param compute one window; `start` after the first report of a run from time 0
+  /// @param start after the first report of a run from time 0
+  /// @param compute from the start of this regular window, so many at most; says how many it got over
   template <class Start, class Compute>
   RunStatus run(Session& session, const ArchiveOwnState& archive, Start&& start, Compute&& compute) {
     Checkpoints checkpoints(session, {.folder = folder, .every = checkpoint_every, .span = span}, archive);
     if (restart) restart->restore(session, folder, archive);
     const std::int64_t first = restart ? restart->window() : 0;
     reporter.begin_at(first);
-    for (std::int64_t n = first; n < span.windows(); ++n) {
+    for (std::int64_t n = first; n < span.windows();) {
       reporter.at(n);
       if (n == 0) start();
       checkpoints.at(n);
@@ -59,7 +63,7 @@ struct Course {
         reporter.last(n);
         return RunStatus::interrupted;
       }
-      compute(Window{.index = n, .length = span.window_length});
+      n += compute(span.window(n), std::min(reporter.next_due(), span.windows()) - n);
     }
     reporter.last(span.windows());
     return RunStatus::finished;
@@ -73,10 +77,12 @@ struct Assembled {
     for (const auto& peer : peers) sources.push_back(&peer);
     if (!run.interface) return;
     exchange.emplace(*run.session, run.interface->tie.mapping);
+    if (run.scene.coupling.longest_window) flight.emplace(*exchange, run.scene.longest_window());
     sources.push_back(&interface.emplace(*run.interface, *run.session->find(Role::particles), *exchange));
   }
   std::vector<PeerSource> peers;
   std::optional<Exchange> exchange;
+  std::optional<FreeFlight> flight;  ///< absent: all windows are regular
   std::optional<InterfaceSource> interface;
   std::vector<const core::OutputSource*> sources;
 };
@@ -119,8 +125,8 @@ core::ResultWriter::Options result_options(const PreparedRun& run, const RunRequ
 
 /// What a strong scheme's iterations cost goes into the summary; the others have none.
 template <class Scheme>
-void add_tally(nlohmann::json& summary, const Scheme& scheme) {
-  if constexpr (requires { scheme.tally(); }) add_iterations(summary, scheme.tally());
+void add_tally(nlohmann::json& summary, const Scheme& scheme, double window_length) {
+  if constexpr (requires { scheme.tally(); }) add_iterations(summary, scheme.tally(), window_length);
 }
 
 double mean_of(const std::vector<double>& values) {
@@ -128,29 +134,44 @@ double mean_of(const std::vector<double>& values) {
 }
 
 template <class Scheme>
-RunStatus compute_coupled(Session& session, Exchange& exchange, Scheme& scheme, Course& course) {
+RunStatus compute_coupled(Session& session, Assembled& parts, Scheme& scheme, Course& course) {
+  Exchange& exchange = *parts.exchange;
+  auto& flight = parts.flight;
   return course.run(
       session,
       [&](core::StateArchive& archive) {
         exchange.archive(archive);
+        if (flight) flight->archive(archive);
         if constexpr (requires { scheme.archive(archive); }) scheme.archive(archive);
       },
-      [&] { exchange.start(); }, [&](const Window& window) { scheme.compute(exchange, window); });
+      [&] { exchange.start(); },
+      [&](const Window& window, std::int64_t most) {
+        const std::int64_t flown = flight ? flight->compute(window, most) : 0;
+        if (flown > 0) return flown;
+        scheme.compute(exchange, window);
+        return one_window;
+      });
 }
 
 RunStatus compute(PreparedRun& run, Assembled& parts, Course& course, nlohmann::json& summary) {
   RunStatus status{};
   if (parts.exchange) {
-    std::visit(SchemeChoice(*parts.exchange, mean_of(run.interface->boundary_masses),
+    const SchemeFacts facts{.node_mass = mean_of(run.interface->boundary_masses),
+                            .most_halvings = run.scene.most_halvings()};
+    std::visit(SchemeChoice(*parts.exchange, facts,
                             [&](auto& scheme) {
-                              status = compute_coupled(*run.session, *parts.exchange, scheme, course);
-                              add_tally(summary, scheme);
+                              status = compute_coupled(*run.session, parts, scheme, course);
+                              add_tally(summary, scheme, run.window_length());
                             }),
                run.scene.coupling.scheme);
+    if (parts.flight) add_flight(summary, parts.flight->tally(), run.window_length());
   } else {
     status = course.run(
         *run.session, [](core::StateArchive&) {}, [] {},
-        [&](const Window& window) { Uncoupled{}.compute(*run.session, window); });
+        [&](const Window& window, std::int64_t) {
+          Uncoupled{}.compute(*run.session, window);
+          return one_window;
+        });
   }
   run.session->finish();
   return status;

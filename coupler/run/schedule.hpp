@@ -3,6 +3,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "coupler/schemes/window.hpp"
+
 namespace talus::coupler {
 
 /// How the span of a run is cut.
@@ -12,6 +14,8 @@ struct Span {
   /// Windows that cover the span; a rest below a millionth of a window is round-off, a larger one takes
   /// another window.
   std::int64_t windows() const { return static_cast<std::int64_t>(std::ceil(end / window_length - 1e-6)); }
+  /// The regular window number n.
+  Window window(std::int64_t n) const { return {.index = n, .unit = window_length}; }
 };
 
 /// Events that recur every so many seconds, each at the start of the window nearest to its time. Counted in
@@ -21,6 +25,8 @@ class Schedule {
   Schedule(const Span& span, double every) : every_in_windows_(every / span.window_length) {}
 
   bool due(std::int64_t window) const { return next_ <= window; }
+  /// The window that is due next.
+  std::int64_t next() const { return next_; }
   /// Moves on to the first event after `window`.
   void done(std::int64_t window) {
     while (next_ <= window) next_ = std::llround(static_cast<double>(++event_) * every_in_windows_);

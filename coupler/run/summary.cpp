@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -34,6 +35,24 @@ json to_json(const Interface& interface) {
           {"tolerance_m", interface.tie.tolerance}};
 }
 
+/// Where windows were not all of one length.
+std::string words_about_windows(const json& summary) {
+  std::string words;
+  if (const auto flight = summary.find("free_flight"); flight != summary.end())
+    words += fmt::format(
+        "  free flight      {} windows in place of {}, {} taken back, the longest {}\n",
+        flight->at("windows").get<std::int64_t>(),
+        flight->at("windows").get<std::int64_t>() + flight->at("regular_windows_spared").get<std::int64_t>(),
+        flight->at("windows_taken_back").get<std::int64_t>(),
+        core::readable(flight->at("longest_window_s").get<double>(), "s"));
+  const auto iterations = summary.find("iterations");
+  if (iterations != summary.end() && iterations->at("windows_halved") > 0)
+    words += fmt::format("  halved windows   {}, the shortest {}\n",
+                         iterations->at("windows_halved").get<std::int64_t>(),
+                         core::readable(iterations->at("shortest_window_s").get<double>(), "s"));
+  return words;
+}
+
 }  // namespace
 
 void add_facts(json& summary, const PreparedRun& run) {
@@ -50,15 +69,25 @@ void add_facts(json& summary, const PreparedRun& run) {
   if (run.interface) summary["interface"] = to_json(*run.interface);
 }
 
-void add_iterations(json& summary, const IterationTally& tally) {
+void add_iterations(json& summary, const IterationTally& tally, double window_length) {
   const auto windows = static_cast<double>(std::max<std::int64_t>(tally.windows, 1));
-  summary["iterations"] = {{"mean", static_cast<double>(tally.iterations) / windows},
-                           {"most", tally.most},
-                           {"total", tally.iterations},
-                           {"windows_not_converged", tally.not_converged}};
+  summary["iterations"] = {
+      {"mean", static_cast<double>(tally.iterations) / windows},
+      {"most", tally.most},
+      {"total", tally.iterations},
+      {"windows_not_converged", tally.not_converged},
+      {"windows_halved", tally.halved},
+      {"shortest_window_s", std::ldexp(window_length, -static_cast<int>(tally.most_halvings))}};
   if (tally.not_converged == 0) return;
   summary["warnings"].push_back(
       fmt::format("{} of {} windows did not converge", tally.not_converged, tally.windows));
+}
+
+void add_flight(json& summary, const FlightTally& tally, double window_length) {
+  summary["free_flight"] = {{"windows", tally.windows},
+                            {"regular_windows_spared", tally.regular - tally.windows},
+                            {"windows_taken_back", tally.taken_back},
+                            {"longest_window_s", window_length * static_cast<double>(tally.longest)}};
 }
 
 std::string closing_words(const std::filesystem::path& folder) {
@@ -74,6 +103,7 @@ std::string closing_words(const std::filesystem::path& folder) {
                        summary.at("real_time_factor").get<double>(),
                        core::readable(summary.at("simulated_time_s").get<double>(), "s"),
                        core::readable(summary.at("wall_time_s").get<double>(), "s"));
+  words += words_about_windows(summary);
   const auto limited_by = summary.at("limited_by").get<std::string>();
   if (!limited_by.empty()) words += "  step limited by  " + limited_by + "\n";
   for (const auto& warning : summary.at("warnings"))

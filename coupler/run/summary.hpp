@@ -6,6 +6,7 @@
 
 #include "coupler/run/prepared_run.hpp"
 #include "coupler/schemes/convergence.hpp"
+#include "coupler/schemes/free_flight.hpp"
 
 /// What the coupler adds to summary.json, and what the user reads of it in the end.
 namespace talus::coupler {
@@ -14,8 +15,11 @@ namespace talus::coupler {
 /// each other.
 void add_facts(nlohmann::json& summary, const PreparedRun& run);
 
-/// Iterations a strong scheme took, and a warning where windows did not converge.
-void add_iterations(nlohmann::json& summary, const IterationTally& tally);
+/// Iterations a strong scheme took, windows it halved, and a warning where windows did not converge.
+/// @param window_length s; of a regular window
+void add_iterations(nlohmann::json& summary, const IterationTally& tally, double window_length);
+/// Windows that grew while nothing touched.
+void add_flight(nlohmann::json& summary, const FlightTally& tally, double window_length);
 
 /// Peaks and their times, energy error, real-time factor, what limited the step, warnings, where the files
 /// are; read from the summary in `folder`, so that both say the same.

@@ -1,5 +1,12 @@
 #include "coupler/scene/coupled_scene.hpp"
 
+#include <fmt/format.h>
+
+#include <cmath>
+#include <functional>
+
+#include "core/units/units.hpp"
+
 namespace talus::coupler {
 namespace {
 
@@ -29,7 +36,38 @@ void read_section(const core::SceneFile& file, const char* key, core::Presence p
       key, presence, [&](core::Fields& fields) { describe(fields, section); }, complaints);
 }
 
+using Complain = std::function<void(const char* key, const std::string& message)>;
+
+/// What has to hold between keys of different sections.
+void check_windows(const CoupledScene& scene, const Complain& complain) {
+  if (scene.window() <= 0) return complain("time.step", "is missing, and so is 'coupling.window'");
+  if (scene.coupling.longest_window && !scene.interface)
+    complain("coupling.longest_window", "needs an interface, without which nothing can touch");
+  if (scene.coupling.longest_window && scene.longest_window() < 2)
+    complain("coupling.longest_window",
+             fmt::format("must be at least two windows of {}", core::readable(scene.window(), "s")));
+  const ImplicitScene* implicit = scene.coupling.implicit();
+  if (implicit != nullptr && implicit->shortest_window && scene.most_halvings() < 1)
+    complain(std::holds_alternative<SerialImplicitScene>(scene.coupling.scheme)
+                 ? "coupling.serial_implicit.shortest_window"
+                 : "coupling.parallel_implicit.shortest_window",
+             fmt::format("must be at most half a window of {}", core::readable(scene.window(), "s")));
+}
+
+constexpr double round_off = 1e-9;  // of a ratio of two times in a scene
+
 }  // namespace
+
+std::int64_t CoupledScene::longest_window() const {
+  if (!coupling.longest_window) return 1;
+  return static_cast<std::int64_t>(*coupling.longest_window / window() * (1 + round_off));
+}
+
+std::int64_t CoupledScene::most_halvings() const {
+  const ImplicitScene* implicit = coupling.implicit();
+  if (implicit == nullptr || !implicit->shortest_window) return 0;
+  return std::ilogb(window() / *implicit->shortest_window * (1 + round_off));
+}
 
 CoupledScene read_coupled_scene(const core::SceneFile& file, std::vector<core::Complaint>& complaints) {
   using core::Presence;
@@ -43,7 +81,7 @@ CoupledScene read_coupled_scene(const core::SceneFile& file, std::vector<core::C
   scene.structure = read_side(file, "structure", complaints);
   scene.particles = read_side(file, "particles", complaints);
 
-  const auto complain = [&](const char* key, const std::string& message) {
+  const Complain complain = [&](const char* key, const std::string& message) {
     complaints.push_back({.file = file.path(), .key_path = key, .message = message});
   };
   if (!scene.structure && !scene.particles)
@@ -51,8 +89,7 @@ CoupledScene read_coupled_scene(const core::SceneFile& file, std::vector<core::C
   if (scene.interface && !(scene.structure && scene.particles)) {
     complain("interface", "needs both a structure and particles, but the scene has only one of them");
   }
-  if (complaints.empty() && scene.window() <= 0)
-    complain("time.step", "is missing, and so is 'coupling.window'");
+  if (complaints.empty()) check_windows(scene, complain);
   return scene;
 }
 

@@ -27,7 +27,11 @@ struct CoupledScene {
   std::optional<InterfaceScene> interface;
   std::optional<SolverScene> structure, particles;
 
-  double window() const { return coupling.window.value_or(time.step.value_or(0)); }
+  double window() const { return coupling.window.value_or(time.step.value_or(0)); }  ///< s; the regular one
+  /// In regular windows; 1 where windows do not grow.
+  std::int64_t longest_window() const;
+  /// How often a window that does not converge may be cut in half.
+  std::int64_t most_halvings() const;
 };
 
 /// Reads everything the coupler needs. Complaints are returned, not thrown: those of the solvers are to come

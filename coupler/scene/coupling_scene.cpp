@@ -15,8 +15,13 @@ void describe_common(core::Fields& fields, ImplicitScene& scheme) {
                  "when a window counts as converged, on every field of the interface");
   fields.with_default("iterations", scheme.iterations,
                       {.range = at_least_one, .help = "most iterations of a window"});
+  fields.optional("shortest_window", scheme.shortest_window,
+                  {.unit = "s",
+                   .range = core::positive,
+                   .help = "a window that takes more iterations is halved, again and again, down to this; "
+                           "absent: it is not"});
   fields.choice("not_converged", scheme.not_converged, {"error", "warning"},
-                "what a window is that takes more iterations");
+                "what a window is that takes more iterations and is not halved");
   fields.one_of(scheme.acceleration,
                 {{"fixed", "constant relaxation"},
                  {"aitken", "relaxation after the last two residuals"},
@@ -73,6 +78,11 @@ void describe(core::Fields& fields, CouplingScene& coupling) {
   fields.optional(
       "window", coupling.window,
       {.unit = "s", .range = core::positive, .help = "time between two exchanges; absent: time.step"});
+  fields.optional("longest_window", coupling.longest_window,
+                  {.unit = "s",
+                   .range = core::positive,
+                   .help = "windows grow up to this while nothing touches, and shrink before something does; "
+                           "absent: all have the same length"});
   fields.with_default(
       "timeout", coupling.timeout,
       {.unit = "s", .range = core::positive, .help = "longest time a solver may take for one answer"});
@@ -91,10 +101,14 @@ void describe(core::Fields& fields, CouplingScene& coupling) {
                  {"parallel_implicit", "both at the same time, repeated until they agree"}});
 }
 
+const ImplicitScene* CouplingScene::implicit() const {
+  if (const auto* serial = std::get_if<SerialImplicitScene>(&scheme)) return &serial->common;
+  if (const auto* parallel = std::get_if<ParallelImplicitScene>(&scheme)) return &parallel->common;
+  return nullptr;
+}
+
 Order CouplingScene::order() const {
-  if (std::holds_alternative<SerialImplicitScene>(scheme) ||
-      std::holds_alternative<ParallelImplicitScene>(scheme))
-    return Order::iterated;
+  if (implicit() != nullptr) return Order::iterated;
   return std::holds_alternative<ParallelExplicitScene>(scheme) ? Order::together : Order::in_turn;
 }
 

@@ -48,6 +48,7 @@ struct ImplicitScene {
   Predictor predictor = Predictor::linear;
   std::optional<ToleranceScene> tolerance;
   std::int64_t iterations = 50;
+  std::optional<double> shortest_window;  ///< s; absent: no window is halved
   NotConverged not_converged = NotConverged::error;
   AccelerationScene acceleration;
 };
@@ -66,14 +67,17 @@ using SchemeScene = std::variant<std::monostate, SerialExplicitScene, ParallelEx
                                  SerialImplicitScene, ParallelImplicitScene>;
 
 struct CouplingScene {
-  std::optional<double> window;  ///< s; absent: time.step
-  double timeout = 300;          ///< s
-  double join_timeout = 60;      ///< s
+  std::optional<double> window;          ///< s; absent: time.step
+  std::optional<double> longest_window;  ///< s; absent: all are equal
+  double timeout = 300;                  ///< s
+  double join_timeout = 60;              ///< s
   /// s of wall time between checkpoints; absent: one where the run is interrupted
   std::optional<double> checkpoint_every;
   SchemeScene scheme;  ///< absent: serial_explicit
 
   Order order() const;
+  /// Of a strong scheme, else none.
+  const ImplicitScene* implicit() const;
 };
 void describe(core::Fields& fields, CouplingScene& coupling);
 

@@ -40,21 +40,22 @@ Convergence::Verdict Convergence::judge(const std::array<FieldChange, 3>& change
 
 void fail_not_converged(const Window& window, int iterations, const Convergence::Verdict& verdict) {
   throw core::NumericalError(
-      {.what = fmt::format("the coupling has not converged after {} iterations of window {}", iterations,
-                           window.index),
+      {.what = fmt::format("the coupling has not converged after {} iterations of window {}{}", iterations,
+                           window.regular_index(),
+                           window.halvings > 0 ? fmt::format(", halved {} times", window.halvings) : ""),
        .entity = fmt::format("the change of {} over what is allowed", name_of(verdict.worst)),
-       .step = window.index,
+       .step = window.regular_index(),
        .time = window.start(),
        .value = verdict.ratio});
 }
 
 void IterationTally::archive(core::StateArchive& archive) {
-  std::int64_t worst = most;
   archive.count("iterated_windows", windows);
   archive.count("iterations", iterations);
   archive.count("windows_not_converged", not_converged);
-  archive.count("most_iterations", worst);
-  most = static_cast<int>(worst);
+  archive.count("most_iterations", most);
+  archive.count("windows_halved", halved);
+  archive.count("most_halvings", most_halvings);
 }
 
 }  // namespace talus::coupler

@@ -19,7 +19,9 @@ struct Convergence {
   /// In m, m/s and N: below these a change is round-off, whatever the field's size.
   std::array<double, 3> absolute{1e-12, 1e-9, 1e-9};
   int most_iterations = 50;
-  bool fail_otherwise = true;  ///< false: go on with the last iterate, counted as a warning
+  std::int64_t most_halvings = 0;  ///< of a window that takes more
+  /// Where it may not be halved any more. false: go on with the last iterate, counted as a warning
+  bool fail_otherwise = true;
 
   /// The field that is worst, relative to what is allowed; converged where that is at most 1.
   struct Verdict {
@@ -35,7 +37,9 @@ const char* name_of(FieldName field);
 /// What the windows of a strong scheme cost.
 struct IterationTally {
   std::int64_t windows = 0, iterations = 0, not_converged = 0;
-  int most = 0;  ///< iterations of the worst window
+  std::int64_t most = 0;           ///< iterations of the worst window
+  std::int64_t halved = 0;         ///< windows that were taken back and computed as two halves
+  std::int64_t most_halvings = 0;  ///< of the shortest window
   void archive(core::StateArchive& archive);
 };
 

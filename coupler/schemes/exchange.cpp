@@ -23,14 +23,6 @@ Exchange::Side side(Session& session, Role role) {
 
 }  // namespace
 
-Command advance(const Window& window, int iteration) {
-  return {.action = Action::advance,
-          .window = window.index,
-          .iteration = iteration,
-          .time = window.start(),
-          .length = window.length};
-}
-
 Exchange::Exchange(Session& session, const mesh::Mapping& mapping)
     : session_(session),
       mapping_(mapping),
@@ -38,15 +30,15 @@ Exchange::Exchange(Session& session, const mesh::Mapping& mapping)
       particles_(side(session, Role::particles)),
       one_set_(structure_.force.data() == particles_.force.data()) {}
 
-void Exchange::advance_particles(const Window& window, int iteration) {
+void Exchange::advance_particles(const Window& window, std::optional<int> iteration) {
   session_.ask(particles_.peer, advance(window, iteration));
 }
 
-void Exchange::advance_structure(const Window& window, int iteration) {
+void Exchange::advance_structure(const Window& window, std::optional<int> iteration) {
   session_.ask(structure_.peer, advance(window, iteration));
 }
 
-void Exchange::advance_both(const Window& window, int iteration) {
+void Exchange::advance_both(const Window& window, std::optional<int> iteration) {
   session_.post(particles_.peer, advance(window, iteration));
   session_.post(structure_.peer, advance(window, iteration));
   session_.wait_answer(particles_.peer);
@@ -55,17 +47,17 @@ void Exchange::advance_both(const Window& window, int iteration) {
 
 void Exchange::save_states(const Window& window) {
   structure_start_.assign(structure_.displacement.begin(), structure_.displacement.end());
-  session_.ask_all({.action = Action::save_state,
-                    .window = window.index,
-                    .time = window.start(),
-                    .length = window.length});
+  force_start_.assign(particles_.force.begin(), particles_.force.end());
+  session_.ask_all(command_at(window, Action::save_state));
 }
 
 void Exchange::restore_states(const Window& window) {
-  session_.ask_all({.action = Action::restore_state,
-                    .window = window.index,
-                    .time = window.start(),
-                    .length = window.length});
+  session_.ask_all(command_at(window, Action::restore_state));
+}
+
+void Exchange::take_back(const Window& window) {
+  restore_states(window);
+  std::ranges::copy(force_start_, particles_.force.begin());
 }
 
 bool Exchange::touching() const {
@@ -91,9 +83,18 @@ void Exchange::motion_to_boundary() {
 void Exchange::extrapolate_boundary_end(const Window& window) {
   if (particles_.end_displacement.empty()) return;
   for (std::size_t i = 0; i < particles_.displacement.size(); ++i) {
-    particles_.end_displacement[i] = particles_.displacement[i] + window.length * particles_.velocity[i];
+    particles_.end_displacement[i] = particles_.displacement[i] + window.length() * particles_.velocity[i];
   }
   std::copy(particles_.velocity.begin(), particles_.velocity.end(), particles_.end_velocity.begin());
+}
+
+void Exchange::release_structure() {
+  std::ranges::fill(structure_.force, 0.0);
+}
+
+void Exchange::motion_to_boundary_end() {
+  mapping_.to_boundary(structure_.displacement, particles_.end_displacement);
+  mapping_.to_boundary(structure_.velocity, particles_.end_velocity);
 }
 
 void Exchange::accept_window() {

@@ -1,9 +1,10 @@
 #pragma once
 
-#include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "coupler/schemes/commands.hpp"
 #include "coupler/session/session.hpp"
 #include "interface_mesh/mapping.hpp"
 
@@ -12,16 +13,6 @@ class StateArchive;
 }
 
 namespace talus::coupler {
-
-/// One window: time = index x length, never accumulated.
-struct Window {
-  std::int64_t index = 0;
-  double length = 0;  ///< s
-  double start() const { return static_cast<double>(index) * length; }
-};
-
-/// The command to compute this window.
-Command advance(const Window& window, int iteration = 0);
 
 /// What a coupling scheme is written in: the two sides, and the mapping between their arrays, which stand in
 /// shared memory; values are mapped straight from one side's array into the other's. Where Ω_D is Ω_S and the
@@ -43,12 +34,16 @@ class Exchange {
   /// Before the first window, once the structure has answered to something: its motion at time 0.
   void start() { motion_to_boundary(); }
 
-  // The participants' parts of a window; each returns when the answers are there.
-  void advance_particles(const Window& window, int iteration = 0);
-  void advance_structure(const Window& window, int iteration = 0);
-  void advance_both(const Window& window, int iteration = 0);
+  // The participants' parts of a window; each returns when the answers are there. An iteration is given where
+  // the window may be taken back.
+  void advance_particles(const Window& window, std::optional<int> iteration = {});
+  void advance_structure(const Window& window, std::optional<int> iteration = {});
+  void advance_both(const Window& window, std::optional<int> iteration = {});
   void save_states(const Window& window);
   void restore_states(const Window& window);
+  /// Everything is as it was when the states were saved, the last forces included: another scheme, or windows
+  /// of another length, may begin here.
+  void take_back(const Window& window);
 
   // Explicit schemes: straight from array to array.
   /// f_S = W^T f_D. Skipped while nothing touches: the forces of the last window were zero, as are these; and
@@ -61,10 +56,14 @@ class Exchange {
   /// particles that take several steps a window; others do not look at it.
   void extrapolate_boundary_end(const Window& window);
 
-  // Strong schemes: what a window settles on after its iterations.
+  // Windows that may be taken back.
   void load_structure(std::span<const double> boundary_force) {
     mapping_.to_structure(boundary_force, structure_.force);
   }
+  void release_structure();
+  /// The structure's present motion, as the boundary's at the window's end.
+  void motion_to_boundary_end();
+  /// What a window of a strong scheme settles on after its iterations.
   void accept_window();
 
   const mesh::Mapping& mapping() const { return mapping_; }
@@ -86,7 +85,8 @@ class Exchange {
   const mesh::Mapping& mapping_;
   Side structure_, particles_;
   bool one_set_;                         ///< both sides have the same arrays
-  std::vector<double> structure_start_;  ///< displacement at the start of a window that is iterated
+  std::vector<double> structure_start_;  ///< m; displacement when the states were saved
+  std::vector<double> force_start_;      ///< N; on the boundary then
   bool touched_ = false;
 };
 

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
+#include "core/output/checkpoint.hpp"
 #include "coupler/schemes/convergence.hpp"
 
 namespace talus::coupler {
@@ -13,6 +15,11 @@ namespace talus::coupler {
 ///
 /// `Unknown` says what x is and in which order the sides run (unknowns.hpp), `Acceleration` how x goes on
 /// (acceleration/).
+///
+/// Where the scene allows it, a window that does not converge is taken back and computed as two halves. What
+/// stops the iteration is the gain k L^2 / 4 m of a contact on a node, so half the length has a quarter of
+/// it. A window more than twice as long as the last one that was tried is halved unasked: a contact that asks
+/// for short windows asks again in the next one, and the length finds its way back once it does not.
 template <class Unknown, class Acceleration>
 class Implicit {
  public:
@@ -23,30 +30,65 @@ class Implicit {
         predictor_(predictor) {}
 
   void compute(Exchange& exchange, const Window& window) {
-    exchange.save_states(window);
-    unknown_.predict(window, predictor_);
-    acceleration_.begin_window();
-    int iteration = 0;
-    unknown_.evaluate(window, iteration);
-    auto verdict = convergence_.judge(unknown_.changes(window));
-    while (!verdict.converged() && ++iteration < convergence_.most_iterations) {
-      correct(exchange);
-      exchange.restore_states(window);
-      unknown_.evaluate(window, iteration);
-      verdict = convergence_.judge(unknown_.changes(window));
-    }
-    if (!verdict.converged() && convergence_.fail_otherwise) fail_not_converged(window, iteration, verdict);
-    exchange.accept_window();
-    count(iteration, verdict.converged());
+    const bool is_worth_trying = window.halvings + 1 >= halvings_ || !may_be_halved(window);
+    if (is_worth_trying && settle(exchange, window)) return;
+    for (const Window& half : window.halves()) compute(exchange, half);
   }
   const IterationTally& tally() const { return tally_; }
   /// What later windows depend on: the unknown is predicted anew in each window, the acceleration remembers.
   void archive(core::StateArchive& archive) {
     acceleration_.archive(archive);
     tally_.archive(archive);
+    archive.count("halvings", halvings_);
   }
 
  private:
+  bool may_be_halved(const Window& window) const { return window.halvings < convergence_.most_halvings; }
+
+  /// @returns whether the window is done; else it is taken back
+  bool settle(Exchange& exchange, const Window& window) {
+    if (window.halvings != halvings_) acceleration_.forget();  // L is part of what it has learnt
+    halvings_ = window.halvings;
+    const Outcome outcome = iterate(exchange, window);
+    tally_.iterations += outcome.iterations;
+    if (!outcome.verdict.converged() && may_be_halved(window)) {
+      exchange.take_back(window);
+      ++tally_.halved;
+      return false;
+    }
+    if (!outcome.verdict.converged() && convergence_.fail_otherwise)
+      fail_not_converged(window, outcome.iterations, outcome.verdict);
+    exchange.accept_window();
+    count(window, outcome);
+    return true;
+  }
+
+  struct Outcome {
+    int iterations = 0;
+    Convergence::Verdict verdict;
+  };
+  Outcome iterate(Exchange& exchange, const Window& window) {
+    exchange.save_states(window);
+    unknown_.predict(window, predictor_);
+    acceleration_.begin_window();
+    Outcome outcome;
+    double least = std::numeric_limits<double>::infinity();
+    while (true) {
+      unknown_.evaluate(window, outcome.iterations);
+      outcome.verdict = convergence_.judge(unknown_.changes(window));
+      ++outcome.iterations;
+      if (outcome.verdict.converged() || outcome.iterations == convergence_.most_iterations) return outcome;
+      least = std::min(least, outcome.verdict.ratio);
+      if (may_be_halved(window) && outcome.verdict.ratio > hopeless * least) return outcome;
+      correct(exchange);
+      exchange.restore_states(window);
+    }
+  }
+
+  /// A change so many times the smallest of the window does not shrink again within its iterations, but may
+  /// grow until a solver refuses the numbers it leads to.
+  static constexpr double hopeless = 1e6;
+
   void correct(const Exchange& exchange) {
     if (exchange.touching()) {
       acceleration_.update(unknown_.x(), unknown_.made());
@@ -56,12 +98,12 @@ class Implicit {
       std::copy(unknown_.made().begin(), unknown_.made().end(), unknown_.x().begin());
     }
   }
-  void count(int iteration, bool converged) {
-    const int used = std::min(iteration + 1, convergence_.most_iterations);
+
+  void count(const Window& window, const Outcome& outcome) {
     ++tally_.windows;
-    tally_.iterations += used;
-    tally_.most = std::max(tally_.most, used);
-    if (!converged) ++tally_.not_converged;
+    tally_.most = std::max<std::int64_t>(tally_.most, outcome.iterations);
+    tally_.most_halvings = std::max(tally_.most_halvings, window.halvings);
+    if (!outcome.verdict.converged()) ++tally_.not_converged;
   }
 
   Unknown unknown_;
@@ -69,6 +111,7 @@ class Implicit {
   Convergence convergence_;
   Predictor predictor_;
   IterationTally tally_;
+  std::int64_t halvings_ = 0;  ///< of the window that was tried last
 };
 
 }  // namespace talus::coupler

@@ -34,10 +34,10 @@ void set_boundary_end(Exchange& exchange, double length, std::span<const double>
 void predict_motion(Exchange& exchange, const Window& window, Predictor predictor, std::span<double> motion) {
   const auto& boundary = exchange.particles();
   const std::size_t half = motion.size() / 2;
-  const double path = predictor == Predictor::linear ? window.length : 0;
+  const double path = predictor == Predictor::linear ? window.length() : 0;
   for (std::size_t i = 0; i < half; ++i) {
     motion[i] = boundary.displacement[i] + path * boundary.velocity[i];
-    motion[half + i] = window.length * boundary.velocity[i];
+    motion[half + i] = window.length() * boundary.velocity[i];
   }
 }
 
@@ -56,18 +56,18 @@ void MotionUnknown::predict(const Window& window, Predictor predictor) {
 
 void MotionUnknown::evaluate(const Window& window, int iteration) {
   if (iteration > 0) copy(exchange_.particles().force, force_before_);
-  set_boundary_end(exchange_, window.length, x_);
+  set_boundary_end(exchange_, window.length(), x_);
   exchange_.advance_particles(window, iteration);
   exchange_.load_structure(exchange_.particles().force);
   exchange_.advance_structure(window, iteration);
-  gather_motion(exchange_, window.length, made_);
+  gather_motion(exchange_, window.length(), made_);
 }
 
 std::array<FieldChange, 3> MotionUnknown::changes(const Window& window) const {
   const std::span<const double> x(x_), made(made_);
   const std::size_t half = x.size() / 2;
   return {FieldChange{FieldName::displacement, x.first(half), made.first(half)},
-          FieldChange{FieldName::velocity, x.last(half), made.last(half), 1 / window.length},
+          FieldChange{FieldName::velocity, x.last(half), made.last(half), 1 / window.length()},
           FieldChange{FieldName::force, force_before_, exchange_.particles().force}};
 }
 
@@ -82,7 +82,7 @@ void ForceUnknown::predict(const Window& window, Predictor predictor) {
   copy(exchange_.particles().force, x_);
   std::vector<double> motion(2 * x_.size());
   predict_motion(exchange_, window, predictor, motion);
-  set_boundary_end(exchange_, window.length, motion);
+  set_boundary_end(exchange_, window.length(), motion);
 }
 
 void ForceUnknown::evaluate(const Window& window, int iteration) {
@@ -91,8 +91,7 @@ void ForceUnknown::evaluate(const Window& window, int iteration) {
   copy(boundary.end_velocity, velocity_before_);
   exchange_.load_structure(x_);
   exchange_.advance_structure(window, iteration);
-  exchange_.mapping().to_boundary(exchange_.structure().displacement, boundary.end_displacement);
-  exchange_.mapping().to_boundary(exchange_.structure().velocity, boundary.end_velocity);
+  exchange_.motion_to_boundary_end();
   exchange_.advance_particles(window, iteration);
 }
 
@@ -118,11 +117,11 @@ void MotionAndForceUnknown::predict(const Window& window, Predictor predictor) {
 
 void MotionAndForceUnknown::evaluate(const Window& window, int iteration) {
   const std::size_t third = force_.size();
-  set_boundary_end(exchange_, window.length, std::span(x_).first(2 * third));
+  set_boundary_end(exchange_, window.length(), std::span(x_).first(2 * third));
   copy_scaled(std::span(x_).last(third), 1 / force_scale(window), force_);
   exchange_.load_structure(force_);
   exchange_.advance_both(window, iteration);
-  gather_motion(exchange_, window.length, std::span(made_).first(2 * third));
+  gather_motion(exchange_, window.length(), std::span(made_).first(2 * third));
   copy_scaled(exchange_.particles().force, force_scale(window), std::span(made_).last(third));
 }
 
@@ -131,7 +130,7 @@ std::array<FieldChange, 3> MotionAndForceUnknown::changes(const Window& window) 
   const std::size_t third = force_.size();
   return {FieldChange{FieldName::displacement, x.first(third), made.first(third)},
           FieldChange{FieldName::velocity, x.subspan(third, third), made.subspan(third, third),
-                      1 / window.length},
+                      1 / window.length()},
           FieldChange{FieldName::force, x.last(third), made.last(third), 1 / force_scale(window)}};
 }
 

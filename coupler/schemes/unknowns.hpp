@@ -65,7 +65,7 @@ class MotionAndForceUnknown {
   std::array<FieldChange, 3> changes(const Window& window) const;
 
  private:
-  double force_scale(const Window& window) const { return window.length * window.length / node_mass_; }
+  double force_scale(const Window& window) const { return window.length() * window.length() / node_mass_; }
   Exchange& exchange_;
   double node_mass_;
   std::vector<double> x_, made_, force_;

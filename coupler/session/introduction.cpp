@@ -120,9 +120,9 @@ bool needs_free_velocity(Session& session, double window_length) {
                   structure->declaration().program));
 }
 
-void lay_out_arrays(Session& session, const std::optional<Interface>& interface, double window_length,
+void lay_out_arrays(Session& session, const std::optional<Interface>& interface, const WindowLengths& windows,
                     Order order) {
-  const bool free_velocity = needs_free_velocity(session, window_length);
+  const bool free_velocity = needs_free_velocity(session, windows.regular);
   if (free_velocity && order == Order::iterated)
     throw core::ConfigError(
         "particles.implicit_contact is for the explicit schemes of 'coupling'; a strong scheme iterates "
@@ -138,7 +138,7 @@ void lay_out_arrays(Session& session, const std::optional<Interface>& interface,
     }
     if (free_velocity) Session::request_array(*peer, ArrayName::free_velocity, values);
     if (is_structure) continue;
-    needs_end = order == Order::iterated || peer->declaration().takes_several_steps(window_length);
+    needs_end = order == Order::iterated || peer->declaration().takes_several_steps(windows.longest);
     if (!needs_end) continue;
     Session::request_array(*peer, ArrayName::end_displacement, values);
     Session::request_array(*peer, ArrayName::end_velocity, values);

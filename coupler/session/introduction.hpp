@@ -47,9 +47,15 @@ enum class Order {
   iterated,  ///< again and again: the particles also get the boundary at the window's end
 };
 
-/// Sizes every array of every participant and makes the data block. Particles that take several steps a
-/// window get the boundary at the window's end, in arrays of their own, whatever the order.
-void lay_out_arrays(Session& session, const std::optional<Interface>& interface, double window_length,
+/// s
+struct WindowLengths {
+  double regular = 0;
+  double longest = regular;  ///< in free flight
+};
+
+/// Sizes every array of every participant and makes the data block. Particles that take several steps in the
+/// longest window get the boundary at a window's end, in arrays of their own, whatever the order.
+void lay_out_arrays(Session& session, const std::optional<Interface>& interface, const WindowLengths& windows,
                     Order order = Order::together);
 
 }  // namespace talus::coupler

@@ -158,8 +158,10 @@ void Session::post(Peer& peer, const Command& command) {
   record.fields = command.fields ? 1 : 0;
   record.window = command.window;
   record.iteration = command.iteration;
+  record.tentative = command.tentative ? 1 : 0;
   record.time = command.time;
   record.length = command.length;
+  record.regular_length = command.regular_length;
   std::memcpy(record.path.data(), command.path.c_str(), command.path.size() + 1);
   window_ = command.window;
   action_ = command.action;

@@ -20,7 +20,7 @@
 namespace talus::coupler::transport {
 
 inline constexpr std::uint64_t magic_number = 0x314C505553554C54;  // "TLUSUPL1"
-inline constexpr std::uint32_t layout_version = 3;
+inline constexpr std::uint32_t layout_version = 4;
 inline constexpr std::size_t role_count = 2;
 inline constexpr std::size_t array_alignment = 64;
 
@@ -67,9 +67,11 @@ struct CommandRecord {
   std::uint32_t action = 0;
   std::uint32_t fields = 0;
   std::int64_t window = -1;
-  std::int64_t iteration = 0;
+  std::int32_t iteration = 0;
+  std::uint32_t tentative = 0;
   double time = 0;
   double length = 0;
+  double regular_length = 0;
   std::array<char, 1024> path{};  ///< ends with 0
 };
 
@@ -113,7 +115,7 @@ struct alignas(4096) Control {
 };
 
 static_assert(std::is_trivially_copyable_v<Control> && std::is_standard_layout_v<Control>);
-static_assert(sizeof(Header) == 2056 && sizeof(CommandRecord) == 1064 && sizeof(ArraySlot) == 16 &&
+static_assert(sizeof(Header) == 2056 && sizeof(CommandRecord) == 1072 && sizeof(ArraySlot) == 16 &&
               sizeof(Mailbox) == 65552);
 static_assert(sizeof(Signal) == 40 && sizeof(Channel) % array_alignment == 0 && sizeof(Control) % 4096 == 0);
 

@@ -34,7 +34,7 @@ CoupledBoundary receive_boundary(const RunScene& scene, coupler::Participant& pa
 coupler::Declaration declaration_of(const RunScene& scene, const ParticleRun& run, bool has_interface) {
   coupler::Declaration declaration;
   declaration.program = "dem_solver " + core::version();
-  declaration.step = scene.particles.step.value_or(0);
+  declaration.step = own_step(scene).value_or(0);
   declaration.insists_on_step = scene.particles.unstable_step == ParticlesScene::UnstableStep::allowed;
   declaration.free_velocity = scene.particles.implicit_contact.has_value() && has_interface;
   declaration.checkpoints = true;
@@ -50,7 +50,7 @@ coupler::Declaration declaration_of(const RunScene& scene, const ParticleRun& ru
 class Server {
  public:
   Server(const RunScene& scene, ParticleRun& run, coupler::Participant& participant, Index first_node)
-      : own_step_(scene.particles.step), run_(run), participant_(participant), first_node_(first_node) {}
+      : own_step_(own_step(scene)), run_(run), participant_(participant), first_node_(first_node) {}
 
   void serve() {
     for (Command command = participant_.next(); command.action != Action::finish;

@@ -18,7 +18,7 @@ struct ContactStage {
   BoundaryList& boundary_list;
   const PairTable& table;
   const ImplicitContact* implicit_contact = nullptr;  ///< of the boundary; nullptr: explicit
-  double step = 0;                                    ///< s
+  double step = 0;                                    ///< s; since the last evaluation
   int threads = 1;
 };
 

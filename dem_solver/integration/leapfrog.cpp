@@ -12,17 +12,17 @@ struct Extremes {
 };
 
 struct StepRows {
-  Lanes gravity;  ///< m/s; velocity gained in a step
-  Lanes step;     ///< s, s, s, 0: the fourth component of a row does not move
+  Lanes gravity;     ///< m/s; velocity gained in a step
+  Lanes step, kick;  ///< s, s, s, 0: the fourth component of a row does not move
 };
 
 TALUS_INLINE void move_sphere(Spheres& s, Index i, const StepRows& by, Extremes& extremes) noexcept {
   const double mass = s.velocity[i].w, radius = s.position[i].w;
-  const Lanes velocity = load(s.velocity[i]) + (load(s.force[i]) * (by.step / mass) + by.gravity);
+  const Lanes velocity = load(s.velocity[i]) + (load(s.force[i]) * (by.kick / mass) + by.gravity);
   store(s.velocity[i], velocity);
   store(s.position[i], load(s.position[i]) + velocity * by.step);
   if (s.rotates())
-    store(s.spin[i], load(s.spin[i]) + load(s.torque[i]) * (by.step / (0.4 * mass * radius * radius)));
+    store(s.spin[i], load(s.spin[i]) + load(s.torque[i]) * (by.kick / (0.4 * mass * radius * radius)));
   const double squared = velocity[0] * velocity[0] + velocity[1] * velocity[1] + velocity[2] * velocity[2];
   extremes.speed_squared = std::max(extremes.speed_squared, squared);
   extremes.sum += squared;
@@ -31,8 +31,9 @@ TALUS_INLINE void move_sphere(Spheres& s, Index i, const StepRows& by, Extremes&
 }  // namespace
 
 MotionSummary kick_and_drift(Spheres& spheres, const LeapfrogStep& how) noexcept {
-  const StepRows by{.gravity = Lanes{how.gravity.x, how.gravity.y, how.gravity.z, 0} * how.step,
-                    .step = Lanes{how.step, how.step, how.step, 0}};
+  const StepRows by{.gravity = Lanes{how.gravity.x, how.gravity.y, how.gravity.z, 0} * how.kick,
+                    .step = Lanes{how.step, how.step, how.step, 0},
+                    .kick = Lanes{how.kick, how.kick, how.kick, 0}};
   double speed_squared = 0, sum = 0;
   const Index count = spheres.size();
   const bool has_rocks = !spheres.rock.empty();

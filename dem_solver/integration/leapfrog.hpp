@@ -6,7 +6,8 @@ namespace talus::dem {
 
 struct LeapfrogStep {
   Triple<double> gravity;  ///< m/s^2
-  double step = 0;         ///< s
+  double step = 0;         ///< s; from the present positions to the next
+  double kick = 0;         ///< s; from the middle of the last step to the middle of this one
   int threads = 1;
 };
 
@@ -18,11 +19,13 @@ struct MotionSummary {
 
 /// Moves all spheres that are no part of a rock by one step of the leapfrog (symplectic Euler), second order
 /// in time:
-///     v_{n+1/2} = v_{n-1/2} + (F(x_n)/m + g) step      x_{n+1} = x_n + v_{n+1/2} step
-///     w_{n+1/2} = w_{n-1/2} + T(x_n)/I step            I = 2/5 m R^2
+///     v_{n+1/2} = v_{n-1/2} + (F(x_n)/m + g) kick      x_{n+1} = x_n + v_{n+1/2} step
+///     w_{n+1/2} = w_{n-1/2} + T(x_n)/I kick            I = 2/5 m R^2
+///     kick = (step_before + step)/2
 /// The scene's velocity at time 0 is taken as v_{-1/2}; so free fall is z_n = z_0 + n v step - g step^2 n (n
 /// + 1)/2 exactly. Stable for step < 2 sqrt(m/k). Test: "Free fall follows the discrete parabola to
-/// round-off".
+/// round-off", "Free fall is exact
+/// in steps of changing length".
 MotionSummary kick_and_drift(Spheres& spheres, const LeapfrogStep& how) noexcept;
 
 }  // namespace talus::dem

@@ -64,19 +64,19 @@ void Rocks::move(const Spheres& spheres, std::span<const Index> place, const Lea
     const Load sum = load(k, spheres, place);
     force_[k] = sum.force;
     torque_[k] = sum.torque;
-    velocity_[k] = velocity_[k] + ((how.step / mass_[k]) * force_[k] + how.step * how.gravity);
+    velocity_[k] = velocity_[k] + ((how.kick / mass_[k]) * force_[k] + how.kick * how.gravity);
     centre_[k] = centre_[k] + how.step * velocity_[k];
-    momentum_[k] = momentum_[k] + how.step * torque_[k];
+    momentum_[k] = momentum_[k] + how.kick * torque_[k];
     orientation_before_[k] = orientation_[k];
     orientation_[k] = turned(orientation_[k], {momentum_[k], moments_[k], how.step});
   }
 }
 
-Rocks::Energy Rocks::energy(Index k, const Triple<double>& gravity, double step_back) const noexcept {
-  const Triple<double> before = velocity_[k] - step_back * ((1 / mass_[k]) * force_[k] + gravity);
-  const Triple<double> momentum_before = momentum_[k] - step_back * torque_[k];
+Rocks::Energy Rocks::energy(Index k, const Triple<double>& gravity, double kick_back) const noexcept {
+  const Triple<double> before = velocity_[k] - kick_back * ((1 / mass_[k]) * force_[k] + gravity);
+  const Triple<double> momentum_before = momentum_[k] - kick_back * torque_[k];
   const Triple<double> w =
-      angular_velocity(step_back > 0 ? orientation_before_[k] : orientation_[k], momentum_[k], moments_[k]);
+      angular_velocity(kick_back > 0 ? orientation_before_[k] : orientation_[k], momentum_[k], moments_[k]);
   return {0.5 * mass_[k] * dot(velocity_[k], before), 0.5 * dot(w, momentum_before)};
 }
 

@@ -58,11 +58,11 @@ class Rocks {
     return angular_velocity(orientation_[k], momentum, moments_[k]);
   }
 
-  /// J; at the time level of the last forces: 1/2 m v.v_before and 1/2 w.L_before.
+  /// J; at the time level of the last forces: 1/2 m v.v_before and 1/2 w.L_before, before the last kick (s).
   struct Energy {
     double translation = 0, rotation = 0;
   };
-  Energy energy(Index k, const Triple<double>& gravity, double step_back) const noexcept;
+  Energy energy(Index k, const Triple<double>& gravity, double kick_back) const noexcept;
 
   template <class Self, class Visitor>
   static void visit_state(Self& self, Visitor&& visit) {

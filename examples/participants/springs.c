@@ -35,7 +35,7 @@ int main(int argc, char** argv) {
   }
   const char* probes[] = {"middle.displacement_z_m"};
   const talus_surface surface = {nodes, positions, masses, 0, NULL, 2 * cells, triangles};
-  const talus_declaration declaration = {"springs.c", 0, 2 / 44.72, 1, probes}; /* 2 sqrt(m/k) */
+  const talus_declaration declaration = {"springs.c", 0, 2 / 44.72, 1, probes, 1}; /* 2 sqrt(m/k) */
 
   talus_participant* self;
   if (talus_join(argv[argc - 1], TALUS_STRUCTURE, &self) || talus_publish_surface(self, &surface))
@@ -50,6 +50,7 @@ int main(int argc, char** argv) {
     if (command.action == TALUS_ADVANCE) advance(&now, fields.force, command.length);
     if (command.action == TALUS_SAVE_STATE) saved = now;
     if (command.action == TALUS_RESTORE_STATE) now = saved;
+    if (talus_checkpoint_state(&command, &now, sizeof now)) return TALUS_CONFIG_ERROR;
     if (command.action == TALUS_REPORT) *probe = now.displacement[3 * (nodes / 2) + 2];
     memcpy(fields.displacement, now.displacement, sizeof now.displacement);
     memcpy(fields.velocity, now.velocity, sizeof now.velocity);

@@ -1,7 +1,7 @@
-/// A first structural solver: 25 free masses in a square, each on a spring to where it was at time 0.
-/// The coupler starts it as `springs_cpp scene.yaml --join SEGMENT`; between the masses it spans triangles
-/// for rocks to land on.
+/// A first structural solver: 25 masses on springs, with triangles between them for rocks to land on.
+/// The coupler starts it as `springs_cpp scene.yaml --join SEGMENT`.
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "coupler/participant.hpp"
@@ -13,7 +13,7 @@ constexpr int side = 5, nodes = side * side;
 constexpr double mass = 10, stiffness = 2e4, spacing = 0.5;  // kg, N/m, m
 
 struct State {
-  std::vector<double> displacement = std::vector<double>(3 * nodes), velocity = displacement;
+  std::array<double, 3 * nodes> displacement{}, velocity{};
 
   /// One step of the leapfrog: forces at its start, velocity from half a step before to half a step after.
   void advance(std::span<const double> force, double step) {
@@ -39,8 +39,7 @@ mesh::Surface square() {
 int main(int argc, char** argv) {
   const auto self = coupler::Participant::join({.segment = argv[argc - 1]});
   self->publish_surface(square(), std::vector<double>(nodes, mass));
-  coupler::Declaration declaration;
-  declaration.program = "springs.cpp";
+  coupler::Declaration declaration{.program = "springs.cpp", .checkpoints = true};
   declaration.limits = {
       {.name = "springs", .seconds = 2 * std::sqrt(mass / stiffness), .reason = "2 sqrt(m/k)"}};
   declaration.outputs.probes = {{.name = "middle.displacement_z_m"}};
@@ -51,6 +50,7 @@ int main(int argc, char** argv) {
     if (command.action == Action::advance) now.advance(fields.force, command.length);
     if (command.action == Action::save_state) saved = now;
     if (command.action == Action::restore_state) now = saved;
+    coupler::checkpoint_state(command, std::as_writable_bytes(std::span(&now, 1)));
     if (command.action == Action::report) self->probes()[0] = now.displacement[3 * (nodes / 2) + 2];
     std::ranges::copy(now.displacement, fields.displacement.begin());
     std::ranges::copy(now.velocity, fields.velocity.begin());

@@ -30,7 +30,8 @@ def step(force: np.ndarray, length: float) -> None:
 with talus.Participant(segment=sys.argv[-1]) as participant:
     participant.publish_surface(talus.Surface(positions, triangles=triangles), np.full(len(positions), MASS))
     limit = talus.StepLimit("springs", 2 * np.sqrt(MASS / STIFFNESS), "2 sqrt(m/k)")
-    participant.declare(talus.Declaration("springs.py", limits=[limit], probes=["middle.displacement_z_m"]))
+    participant.declare(talus.Declaration("springs.py", limits=[limit], probes=["middle.displacement_z_m"],
+                                          checkpoints=True))
     for command in participant.commands():
         fields = participant.structure_fields()
         if command.action == talus.Action.advance:
@@ -41,4 +42,5 @@ with talus.Participant(segment=sys.argv[-1]) as participant:
             displacement, velocity = saved
         elif command.action == talus.Action.report:
             participant.probes()[0] = displacement[len(positions) // 2, 2]
+        talus.checkpoint_state(command, displacement, velocity)
         fields.displacement[:], fields.velocity[:] = displacement, velocity

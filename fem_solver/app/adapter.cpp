@@ -108,7 +108,7 @@ coupler::Declaration declaration(Structure& structure, const StructuralScene& sc
   return declared;
 }
 
-/// The present time, and the length of the window to come as far as anybody knows.
+/// The present time, and the length of the window to come, in which something may touch.
 struct Present {
   double time = 0, next_window = 0;  ///< s
 };
@@ -125,7 +125,7 @@ void obey(const coupler::Command& command, Structure& structure, coupler::Partic
   using coupler::Action;
   Integrator& integrator = structure.integrator();
   const coupler::StructureFields fields = participant.structure_fields();
-  Present present{command.time, command.length};
+  Present present{command.time, command.regular_length};
   switch (command.action) {
     case Action::advance:
       integrator.interface().set(fields.force);

@@ -34,7 +34,7 @@ def declaration(model: Model) -> talus.Declaration:
     group = talus.Group(model.part, len(model.net.positions), model.net.wires, fields=[
         talus.Field("displacement", "m", 3), talus.Field("axial_force", "N", 1, talus.FieldLocation.cell)])
     return talus.Declaration(
-        program=PROGRAM, step=model.step, limits=[limit],
+        program=PROGRAM, step=model.step, limits=[limit], checkpoints=True,
         probes=[f"{probe.name}.displacement_{axis}_m" for probe in model.probes for axis in AXES],
         ledger=[talus.LedgerLine("structure.kinetic_J"), talus.LedgerLine(f"structure.elastic_{model.part}_J"),
                 talus.LedgerLine("structure.bulk_damping_J", talus.LedgerKind.dissipated),

@@ -81,3 +81,4 @@ class Declaration:
     probes: Sequence[str] = ()  #: columns of probes.csv, such as "net_centre.displacement_z_m"
     ledger: Sequence[LedgerLine] = ()
     groups: Sequence[Group] = ()
+    checkpoints: bool = False  #: it answers write_checkpoint and read_checkpoint

@@ -33,7 +33,7 @@ void run_in_process(const std::filesystem::path& scene_file, const std::filesyst
                                        [&](auto& p) { dem::serve_particles(file, p); });
   session.wait_joined();
   const auto interface = coupler::introduce(session, coupler::plan_of(*scene.interface));
-  coupler::lay_out_arrays(session, interface, scene.window());
+  coupler::lay_out_arrays(session, interface, {scene.window()});
   coupler::Exchange exchange(session, interface->tie.mapping);
   const coupler::PeerSource structure_values(structure), particle_values(particles);
   const coupler::InterfaceSource interface_values(*interface, particles, exchange);
@@ -45,7 +45,7 @@ void run_in_process(const std::filesystem::path& scene_file, const std::filesyst
   for (std::int64_t n = 0; n < span.windows(); ++n) {
     reporter.at(n);
     if (n == 0) exchange.start();
-    coupler::SerialExplicit{}.compute(exchange, {.index = n, .length = span.window_length});
+    coupler::SerialExplicit{}.compute(exchange, span.window(n));
   }
   reporter.last(span.windows());
   session.finish();

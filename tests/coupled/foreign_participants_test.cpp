@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <fstream>
 #include <thread>
 
 #include "core/errors.hpp"
@@ -10,6 +11,7 @@
 #include "coupler/schemes/serial_explicit.hpp"
 #include "coupler/session/introduction.hpp"
 #include "coupler/transport/segment.hpp"
+#include "tests/support/program.hpp"
 
 using namespace talus;
 using coupler::Action;
@@ -20,14 +22,14 @@ namespace {
 const std::string root = TALUS_SOURCE_DIR;
 
 coupler::Window window_of(std::int64_t index) {
-  return {.index = index, .length = 1e-3};
+  return {.index = index, .unit = 1e-3};
 }
 
 /// A structure in a program of its own, and particles that this test is itself.
 class ForeignRun {
  public:
-  ForeignRun(const std::string& solver, const std::vector<std::string>& arguments)
-      : segment_(coupler::transport::create_shared_segment()), session_(segment_, {.timeout = 20}) {
+  ForeignRun(const std::string& solver, const std::vector<std::string>& arguments, double timeout = 20)
+      : segment_(coupler::transport::create_shared_segment()), session_(segment_, {.timeout = timeout}) {
     auto program = coupler::launch::named_solver(solver, std::filesystem::path(root) / solver).value();
     program.command.insert(program.command.end(), arguments.begin(), arguments.end());
     session_.launch(Role::structure, program);
@@ -44,7 +46,7 @@ class ForeignRun {
     pushing_ = std::thread([this, node, force] { push(node, force); });
     session_.wait_joined();
     interface_ = coupler::introduce(session_, coupler::identical_surfaces());
-    coupler::lay_out_arrays(session_, interface_, window_of(0).length);
+    coupler::lay_out_arrays(session_, interface_, {window_of(0).length()});
     exchange_.emplace(session_, interface_->tie.mapping);
   }
   void compute(std::int64_t window) { coupler::SerialExplicit{}.compute(*exchange_, window_of(window)); }
@@ -140,6 +142,52 @@ TEST_CASE("participants in C, C++ and Python go back to the state they saved") {
   run.session().finish();
 }
 
+TEST_CASE("participants in C, C++ and Python go on from a checkpoint with the same bits") {
+  const std::string program =
+      GENERATE("examples/participants/springs.py", TALUS_BINARY_DIR "/bin/springs_cpp",
+               TALUS_BINARY_DIR "/bin/springs_c");
+  INFO(program);
+  const test::TemporaryFolder folder;
+  const std::string file = folder.path() / "springs.part";
+  constexpr int split = 40, end = 100;
+  std::vector<double> expected;
+  const auto copy_of = [](ForeignRun& run) {
+    const auto u = run.structure().array(coupler::transport::ArrayName::displacement);
+    return std::vector<double>(u.begin(), u.end());
+  };
+  {
+    ForeignRun whole(program, {"scene.yaml"});
+    whole.start(12, pulsating_force);
+    REQUIRE(whole.structure().declaration().checkpoints);
+    for (int window = 0; window < end; ++window) {
+      if (window == split)
+        whole.session().ask(whole.structure(),
+                            {.action = Action::write_checkpoint, .window = split, .path = file});
+      whole.compute(window);
+    }
+    expected = copy_of(whole);
+    whole.session().finish();
+  }
+  ForeignRun rest(program, {"scene.yaml"});
+  rest.start(12, pulsating_force);
+  rest.session().ask(rest.structure(), {.action = Action::read_checkpoint, .window = split, .path = file});
+  for (int window = split; window < end; ++window) rest.compute(window);
+  CHECK(copy_of(rest) == expected);
+  rest.session().finish();
+}
+
+TEST_CASE("a checkpoint of another state is refused by C and C++ before it is taken") {
+  const std::string program =
+      GENERATE(TALUS_BINARY_DIR "/bin/springs_cpp", TALUS_BINARY_DIR "/bin/springs_c");
+  const test::TemporaryFolder folder;
+  const std::string file = folder.path() / "other.part";
+  std::ofstream(file) << "too short";
+  ForeignRun run(program, {"scene.yaml"});
+  run.start(12, no_force);
+  CHECK_THROWS(
+      run.session().ask(run.structure(), {.action = Action::read_checkpoint, .window = 0, .path = file}));
+}
+
 TEST_CASE("a NumericalError raised in Python reaches the coupler with its step, time and entity") {
   try {
     run_failing("numerical");
@@ -167,7 +215,8 @@ TEST_CASE("any other exception in Python ends the run with its type, its text an
 
 TEST_CASE("a Python participant that leaves or is killed is named within a second") {
   for (const auto& [how, told] :
-       {std::pair{"leave", "SystemExit: 3"}, std::pair{"kill", "killed by signal 9"}}) {
+       {std::pair{"leave", "SystemExit: 3"}, std::pair{"exit", "ended with exit code 7"},
+        std::pair{"kill", "killed by signal 9"}}) {
     ForeignRun run("tests/coupled/participants/failing.py", {how});
     run.start(0, no_force);
     run.compute(0);
@@ -177,4 +226,19 @@ TEST_CASE("a Python participant that leaves or is killed is named within a secon
     const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - before;
     CHECK(taken.count() < noticed_within);
   }
+}
+
+TEST_CASE("a Python participant that hangs is named after the timeout, and is gone with the run") {
+  constexpr double timeout = 1;
+  int pid = 0;
+  {
+    ForeignRun run("tests/coupled/participants/failing.py", {"hang"}, timeout);
+    run.start(0, no_force);
+    run.compute(0);
+    run.compute(1);
+    pid = static_cast<int>(run.structure().channel().pid);
+    CHECK_THROWS_WITH(run.compute(2), Catch::Contains("gave no answer for 1 s (hangs; its process sleeps)") &&
+                                          Catch::Contains("window 2"));
+  }
+  CHECK_FALSE(test::exists(pid));
 }

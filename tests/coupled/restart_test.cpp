@@ -70,13 +70,14 @@ class Example {
 constexpr Example::Course hanging_net{"hanging_net", "1 ms", "0.3 s", "1 us"},
     implicit_net{"hanging_net_implicit", "4 ms", "0.3 s", "1 us"},
     rock_on_net{"cable_net", "50 us", "0.08 s", "20 ms",  // moved close: it touches the net from 2 ms on
-                "particles: {spheres: {boulder: {at: [1.5, 1.729, 0.22]}}}\n"};
+                "particles: {spheres: {boulder: {at: [1.5, 1.729, 0.22]}}}\n"},
+    rock_in_flight{"cable_net", "50 us, longest_window: 0.7 ms", "0.05 s", "5 ms"};
 
 }  // namespace
 
 TEST_CASE(
     "a run killed at a random moment and restarted from its last checkpoint has the tables of a whole run") {
-  const Example example(GENERATE(hanging_net, implicit_net, rock_on_net));
+  const Example example(GENERATE(hanging_net, implicit_net, rock_on_net, rock_in_flight));
   example.run("whole");
   std::mt19937 random(11);
   for (int k = 0; k < 2; ++k) {

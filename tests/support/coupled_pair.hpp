@@ -10,10 +10,11 @@
 
 namespace talus::test {
 
-/// Two participants in threads of this process, introduced and ready for windows of one length.
+/// Two participants in threads of this process, introduced and ready for windows of these lengths.
 class CoupledPair {
  public:
-  CoupledPair(ParticipantThread::Serve structure, ParticipantThread::Serve particles, double window_length) {
+  CoupledPair(ParticipantThread::Serve structure, ParticipantThread::Serve particles,
+              const coupler::WindowLengths& windows) {
     session_.await(coupler::Role::structure);
     session_.await(coupler::Role::particles);
     threads_[0] =
@@ -22,7 +23,7 @@ class CoupledPair {
         std::make_unique<ParticipantThread>(segment_, coupler::Role::particles, std::move(particles));
     session_.wait_joined();
     interface_ = coupler::introduce(session_, coupler::identical_surfaces());
-    coupler::lay_out_arrays(session_, interface_, window_length, coupler::Order::iterated);
+    coupler::lay_out_arrays(session_, interface_, windows, coupler::Order::iterated);
     exchange_.emplace(session_, interface_->tie.mapping);
   }
   ~CoupledPair() { session_.abort("the test is over"); }

@@ -112,6 +112,7 @@ py::dict surface_arrays(const mesh::Surface& surface) {
 coupler::Declaration declaration_from(const py::object& declaration) {
   return {.program = declaration.attr("program").cast<std::string>(),
           .step = declaration.attr("step").cast<double>(),
+          .checkpoints = declaration.attr("checkpoints").cast<bool>(),
           .limits = each(declaration.attr("limits"), limit_from),
           .effects = each(declaration.attr("effects"), effect_from),
           .outputs = {.probes = each(declaration.attr("probes"), probe_from),

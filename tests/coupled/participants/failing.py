@@ -2,6 +2,7 @@
 import os
 import signal
 import sys
+import time
 
 import numpy as np
 import talus
@@ -14,6 +15,10 @@ def go_wrong(how):
         raise ZeroDivisionError("a bug of the solver")
     if how == "leave":
         sys.exit(3)
+    if how == "exit":
+        os._exit(7)
+    if how == "hang":
+        time.sleep(600)
     os.kill(os.getpid(), signal.SIGKILL)
 
 

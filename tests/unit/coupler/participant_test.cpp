@@ -21,7 +21,7 @@ struct Coupler {
   void introduce_all() {
     session.wait_joined();
     const auto interface = introduce(session, identical_surfaces());
-    lay_out_arrays(session, interface, 1e-3);
+    lay_out_arrays(session, interface, {1e-3});
   }
 };
 

@@ -92,7 +92,7 @@ class Course {
 
  private:
   std::vector<double> run(const std::filesystem::path& restart, std::int64_t checkpoint) {
-    test::CoupledPair pair(serve_node, serve_springs, span.window_length);
+    test::CoupledPair pair(serve_node, serve_springs, {span.window_length});
     auto scheme = make_(pair.exchange());
     const ArchiveOwnState archive = [&](core::StateArchive& state) {
       pair.exchange().archive(state);
@@ -111,7 +111,7 @@ class Course {
         checkpoints.write(n);
         break;
       }
-      scheme.compute(pair.exchange(), {.index = n, .length = span.window_length});
+      scheme.compute(pair.exchange(), span.window(n));
       const auto u = pair.exchange().structure().displacement;
       path.insert(path.end(), u.begin(), u.end());
       path.push_back(pair.exchange().work_on_structure());
@@ -151,6 +151,15 @@ TEST_CASE("a run split at a random window by checkpoint and restart has the bits
   SECTION("serial implicit, Aitken, motion") {
     check_restarts([](Exchange& exchange) {
       return Implicit(MotionUnknown(exchange), Aitken(0.5), loose(), Predictor::linear);
+    });
+  }
+  SECTION("serial implicit, Aitken, motion, in windows that are halved again and again") {
+    Convergence few = loose();
+    few.most_iterations = 3;
+    few.most_halvings = 4;
+    few.fail_otherwise = false;
+    check_restarts([few](Exchange& exchange) {
+      return Implicit(MotionUnknown(exchange), Aitken(0.5), few, Predictor::linear);
     });
   }
   SECTION("serial implicit, IQN-ILS, force") {

@@ -117,3 +117,40 @@ TEST_CASE("strong schemes are read with their accelerations, and wrong ones are 
   CHECK(with("serial_implicit: {iqn_ils: {filter: 1e-9}}").size() == 1);
   CHECK(with("serial_explicit: {}, serial_implicit: {}").size() == 1);
 }
+
+TEST_CASE("windows that grow and windows that are halved are read, and lengths that do nothing are refused") {
+  const auto with = [](const std::string& coupling, bool interface = true) {
+    return complaints_about(
+        sides + "coupling: {" + coupling + "}\n" +
+        (interface ? "interface: {structure: [net], boundary: {same_as_structure: {}}}\n" : ""));
+  };
+  using Texts = std::vector<std::string>;
+  CHECK(with("longest_window: 2 ms").empty());
+  CHECK(with("longest_window: 1.9 ms") ==
+        Texts{"s.yaml: coupling.longest_window: must be at least two windows of 1 ms"});
+  CHECK(with("longest_window: 2 ms", false) ==
+        Texts{"s.yaml: coupling.longest_window: needs an interface, without which nothing can touch"});
+  CHECK(with("longest_window: 0 s").size() == 1);
+  CHECK(with("serial_implicit: {shortest_window: 0.5 ms}").empty());
+  CHECK(with("serial_implicit: {shortest_window: 0.51 ms}") ==
+        Texts{"s.yaml: coupling.serial_implicit.shortest_window: must be at most half a window of 1 ms"});
+  CHECK(with("parallel_implicit: {shortest_window: 1 ms}") ==
+        Texts{"s.yaml: coupling.parallel_implicit.shortest_window: must be at most half a window of 1 ms"});
+  CHECK(with("serial_explicit: {shortest_window: 0.1 ms}").size() == 1);
+}
+
+TEST_CASE("the shortest and the longest window are counted in regular ones") {
+  CoupledScene scene;
+  scene.coupling.window = 0.3e-3;
+  CHECK(scene.longest_window() == 1);
+  CHECK(scene.most_halvings() == 0);
+  scene.coupling.longest_window = 3e-3;  // 9.999... in binary
+  CHECK(scene.longest_window() == 10);
+  SerialImplicitScene implicit;
+  implicit.common.shortest_window = 0.3e-3 / 8;
+  scene.coupling.scheme = implicit;
+  CHECK(scene.most_halvings() == 3);
+  implicit.common.shortest_window = 0.3e-3 / 9;
+  scene.coupling.scheme = implicit;
+  CHECK(scene.most_halvings() == 3);
+}

@@ -11,7 +11,7 @@ using namespace talus;
 namespace {
 
 constexpr coupler::Window window_of(std::int64_t index) {
-  return {.index = index, .length = 1e-3};
+  return {.index = index, .unit = 1e-3};
 }
 constexpr int windows = 2000;  // 2 s: several contacts and rebounds
 
@@ -27,8 +27,8 @@ Histories undivided(const test::TwoMasses& system) {
       .mass = system.particle_mass, .position = system.gap, .velocity = system.particle_velocity};
   for (int n = 0; n < windows; ++n) {
     const double push = test::contact_force(system, particle.position, node.position);
-    particle.advance(push, window_of(n).length);
-    node.advance(-push - system.structure_stiffness * node.position, window_of(n).length);
+    particle.advance(push, window_of(n).length());
+    node.advance(-push - system.structure_stiffness * node.position, window_of(n).length());
     history.particle.push_back(particle.position);
     history.structure.push_back(node.position);
   }
@@ -54,7 +54,7 @@ Outcome divided(const test::TwoMasses& system) {
   });
   session.wait_joined();
   const auto interface = coupler::introduce(session, coupler::identical_surfaces());
-  coupler::lay_out_arrays(session, interface, window_of(0).length);
+  coupler::lay_out_arrays(session, interface, {window_of(0).length()});
   coupler::Exchange exchange(session, interface->tie.mapping);
   for (int n = 0; n < windows; ++n) {
     coupler::SerialExplicit{}.compute(exchange, window_of(n));

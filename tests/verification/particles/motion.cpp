@@ -23,6 +23,21 @@ TEST_CASE("Free fall follows the discrete parabola to round-off") {
   }
 }
 
+TEST_CASE("Free fall is exact in steps of changing length") {
+  // With v_{-1/2} = 1 the velocity at time 0 is 1 - g h_0/2, and a constant acceleration has no error.
+  SphereCase c{.step = 1e-3};
+  ParticleModel model = model_of(c, rigid());
+  model.gravity = {0, 0, -g};
+  model.spheres = {c.sphere({0, 0, 5}, {0, 0, 1})};
+  ParticleSolver solver(model);
+  for (const double step : {1e-3, 4e-3, 0.5e-3, 0.5e-3, 7e-3, 1e-3}) {
+    solver.set_clock({.time = solver.time(), .step = step});
+    solver.step();
+    const double time = solver.time(), v0 = 1 - g * c.step / 2;
+    CHECK(position(solver, 0).z == Approx(5 + v0 * time - g * time * time / 2).margin(1e-12));
+  }
+}
+
 TEST_CASE("A sphere at rest on a plane has the overlap that carries its weight") {
   SphereCase c{.restitution = 0.1, .step = 1e-4};
   ParticleModel model = model_of(c, rigid());
