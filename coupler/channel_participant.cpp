@@ -153,7 +153,7 @@ Command ChannelParticipant::next() {
   if (load(control_.header.state) != static_cast<std::uint32_t>(RunState::running)) look_around(0);
   if (stage_ == Stage::declared) map_arrays();
   command_ = command_of(channel_.command);
-  meter_before(command_);
+  meter_before();
   stage_ = command_.action == Action::finish ? Stage::finished : Stage::answering;
   return command_;
 }
@@ -179,29 +179,37 @@ void ChannelParticipant::fail(const std::exception& error) noexcept {
   post(channel_.answer_posted);
 }
 
-void ChannelParticipant::meter_before(const Command& command) {
-  const auto force = array(ArrayName::force), displacement = array(ArrayName::displacement);
-  if (meter_) channel_.work += meter_->end(force, displacement);  // of the particles' last window
+// The structure's force is there at the window's start, the particles' when they answer; the place at which the
+// boundary then arrives comes with the next command, unless it came with this one.
+void ChannelParticipant::meter_before() {
+  if (meter_) channel_.work += meter_->end(array(ArrayName::force), array(ArrayName::displacement));
   meter_.reset();
-  if (command.action != Action::advance || command.tentative) return;
-  meter_.emplace(declaration_.takes_several_steps(command.length) ? ForceMeaning::mean
-                                                                  : ForceMeaning::at_start);
-  if (options_.role == Role::structure)
-    meter_->begin(force, {displacement, array(ArrayName::velocity)}, command.length);
+  if (is_metered() && options_.role == Role::structure) begin_metering();
 }
 
 void ChannelParticipant::meter_after() {
-  if (!meter_) return;
+  if (!is_metered()) return;
   const auto force = array(ArrayName::force), displacement = array(ArrayName::displacement);
   if (options_.role == Role::structure) {
     channel_.work += meter_->end(force, displacement);
+    meter_.reset();
   } else if (!declaration_.takes_several_steps(command_.length)) {
-    meter_->begin(force, {displacement, array(ArrayName::velocity)}, command_.length);
-    return;  // the boundary's new place comes with the next command
+    begin_metering();
   } else {
     channel_.work += work_on_path(force, displacement, array(ArrayName::end_displacement));
   }
-  meter_.reset();
+}
+
+/// Only windows that are never taken back.
+bool ChannelParticipant::is_metered() const {
+  return command_.action == Action::advance && !command_.tentative;
+}
+
+void ChannelParticipant::begin_metering() {
+  const bool is_mean = declaration_.takes_several_steps(command_.length);
+  meter_.emplace(WorkMeter::Window{is_mean ? ForceMeaning::mean : ForceMeaning::at_start, command_.length},
+                 array(ArrayName::force),
+                 WorkMeter::Motion{array(ArrayName::displacement), array(ArrayName::velocity)});
 }
 
 void ChannelParticipant::map_arrays() {

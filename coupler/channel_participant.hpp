@@ -55,8 +55,10 @@ class ChannelParticipant final : public Participant {
   void map_arrays();
   // The ledger of the interface: each side sums the work on its own surface, whose values its core has just
   // written or is about to read. In windows that may be taken back the coupler does, once they are accepted.
-  void meter_before(const Command& command);
+  void meter_before();
   void meter_after();
+  bool is_metered() const;
+  void begin_metering();
   std::span<double> array(transport::ArrayName name) const { return arrays_[static_cast<std::size_t>(name)]; }
   std::span<double> outputs() const;
 
@@ -70,7 +72,7 @@ class ChannelParticipant final : public Participant {
   std::string waited_for_ = "the coupler to begin";
   Command command_;  ///< the last one
   Declaration declaration_;
-  std::optional<WorkMeter> meter_;  ///< of a window of a weak scheme
+  std::optional<WorkMeter> meter_;  ///< of the window whose work is not yet known
   std::size_t surface_nodes_ = 0;
   OutputArrays output_arrays_;
   std::array<std::span<double>, transport::array_count> arrays_;

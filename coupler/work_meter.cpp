@@ -37,17 +37,15 @@ double sum_over_loaded(std::span<const double> force, Term&& term) noexcept {
 
 }  // namespace
 
-void WorkMeter::begin(std::span<const double> force, const Motion& start, double length) noexcept {
-  const double *u = start.displacement.data(), *v = start.velocity.data();
+WorkMeter::WorkMeter(const Window& window, std::span<const double> force, const Motion& start) noexcept
+    : meaning_(window.meaning) {
+  const double *u = start.displacement.data(), *v = start.velocity.data(), length = window.length;
   pending_ = meaning_ == ForceMeaning::mean
                  ? sum_over_loaded(force, [u](std::size_t i) { return -u[i]; })
                  : sum_over_loaded(force, [=](std::size_t i) { return length * v[i] - u[i]; });
-  begun_ = true;
 }
 
-double WorkMeter::end(std::span<const double> force, std::span<const double> displacement) noexcept {
-  if (!begun_) return 0;
-  begun_ = false;
+double WorkMeter::end(std::span<const double> force, std::span<const double> displacement) const noexcept {
   const double* u = displacement.data();
   const double path_times_force = pending_ + sum_over_loaded(force, [u](std::size_t i) { return u[i]; });
   return meaning_ == ForceMeaning::mean ? path_times_force : 0.5 * path_times_force;

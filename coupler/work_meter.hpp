@@ -31,17 +31,21 @@ class WorkMeter {
   struct Motion {
     std::span<const double> displacement, velocity;
   };
-  explicit WorkMeter(ForceMeaning meaning) : meaning_(meaning) {}
+  struct Window {
+    ForceMeaning meaning;
+    double length = 0;  ///< s
+  };
 
-  /// The surface at the window's start, and the forces it is going to bear.
-  void begin(std::span<const double> force, const Motion& start, double length) noexcept;
-  /// The work since begin(), which has to have been called with the same forces; without it nothing. J
-  double end(std::span<const double> force, std::span<const double> displacement) noexcept;
+  /// At the window's start.
+  /// @param force that the surface is going to bear
+  WorkMeter(const Window& window, std::span<const double> force, const Motion& start) noexcept;
+  /// The window's work (J), at its end.
+  /// @pre `force` is that of its start
+  double end(std::span<const double> force, std::span<const double> displacement) const noexcept;
 
  private:
   ForceMeaning meaning_;
-  bool begun_ = false;
-  double pending_ = 0;  ///< the part of the window's sum that its start decides, J
+  double pending_;  ///< the part of the window's sum that its start decides, J
 };
 
 /// Work of mean forces whose path is known at once, J.

@@ -13,8 +13,8 @@ class Reporter {
   struct Plan {
     Span span;
     Schedule rows;
-    std::optional<Schedule> frames;
-    std::string limited_by;  ///< for the progress line
+    std::optional<Schedule> frames{};
+    std::string limited_by{};  ///< for the progress line
   };
   Reporter(Session& session, core::ResultWriter& results, Plan plan, core::ProgressStyle style);
 

@@ -22,15 +22,15 @@ namespace talus::dem {
 ///     normal:      Fn = max(0, (Fe - c u0)/(1 + c dt g))
 ///     tangential:  T  = (T0 - (kt dt + ct) u0)/(1 + (kt dt + ct) dt g_t),  |T| <= mu Fn
 ///
-/// | symbol | variable            | meaning                                                  | unit  |
-/// |--------|---------------------|----------------------------------------------------------|-------|
-/// | u      | relative velocity   | of the sphere over the boundary at the contact, t_n + dt/2 | m/s |
-/// | u0     |                     | u without this contact's own force                       | m/s   |
-/// | f      | force               | on the sphere, Fn n + T                                  | N     |
-/// | Fe, T0 | elastic, spring     | springs at t_n                                           | N     |
-/// | c, ct  | damping, ...        | dashpots                                                 | N s/m |
-/// | g, g_t | response            | velocity a unit of impulse at the contact makes there, along n; most
-/// along the surface | 1/kg |
+/// | symbol | variable          | meaning                                                      | unit  |
+/// |--------|-------------------|--------------------------------------------------------------|-------|
+/// | u      | relative velocity | of the sphere over the boundary at the contact, t_n + dt/2   | m/s   |
+/// | u0     |                   | u without this contact's own force                           | m/s   |
+/// | f      | force             | on the sphere, Fn n + T                                      | N     |
+/// | Fe, T0 | elastic, spring   | springs at t_n                                               | N     |
+/// | c, ct  | damping, ...      | dashpots                                                     | N s/m |
+/// | g, g_t | response          | velocity that a unit of impulse at the contact makes there,  | 1/kg  |
+/// |        |                   | along n; most along the surface                              |       |
 ///
 /// With r from the body's centre to the contact point, an impulse p changes the velocity there by
 /// (1/m + sum N_k^2/m_k) p + (I^-1 (r x p)) x r, the sum over the boundary's nodes: for a sphere arm^2/I

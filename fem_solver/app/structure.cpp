@@ -21,11 +21,6 @@ constexpr const char* structure_help =
 /// that cables which snap taut keep the energy balance (measured in docs/step_limits.md).
 constexpr double default_share_of_limit = 0.5;
 
-bool is_explicit(const StructureScene& scene) {
-  return std::holds_alternative<std::monostate>(scene.method) ||
-         std::holds_alternative<ExplicitScene>(scene.method);
-}
-
 bool is_watched(const StructureScene& scene) {
   return scene.unstable_step == StructureScene::UnstableStep::refused;
 }
@@ -36,7 +31,7 @@ std::string description(const AddedMass& added) {
 }
 
 std::vector<StepBound> bounds_of(const StructureScene& scene, Assembly& assembly) {
-  if (!is_explicit(scene)) return {};
+  if (!is_explicit(scene.method)) return {};
   auto bounds = step_bounds(assembly, std::vector<double>(assembly.model().reference.size(), 0.0));
   if (scene.mass_scaling)
     bounds.resize(std::min<std::size_t>(bounds.size(), 1));  // waves do not know of added mass

@@ -16,14 +16,12 @@ namespace talus::fem {
 ///     at an end:         dt = 0,                           dq = dr - t dw
 ///     K from df_C = alpha dq,  df_A = -(1 - t) alpha dq + alpha q dt,  df_B = -t alpha dq - alpha q dt
 ///
-/// | symbol | variable | meaning                                                                       | unit
-/// |
-/// |--------|----------|-------------------------------------------------------------------------------|------|
-/// | alpha  | penalty  | spring stiffness; the gap left is force/alpha, the step limit falls with it   | N/m
-/// | | t      | fraction | where C's foot stands; by it |v x w|/|w| of eq. 5 equals |q| between the ends  | 1
-/// | | d      | gap      | distance of the slider from the rope                                          | m
-/// | | f      |          | internal forces: what the nodes must be held with                             | N
-/// |
+/// | symbol | variable | meaning                                                                        | unit |
+/// |--------|----------|--------------------------------------------------------------------------------|------|
+/// | alpha  | penalty  | spring stiffness; the gap left is force/alpha, the step limit falls with it    | N/m  |
+/// | t      | fraction | where C's foot stands; by it |v x w|/|w| of eq. 5 equals |q| between the ends  | 1    |
+/// | d      | gap      | distance of the slider from the rope                                           | m    |
+/// | f      |          | internal forces: what the nodes must be held with                              | N    |
 ///
 /// Clamping makes the rope finite: a slider past its last node is pulled back to that node, and at a corner
 /// it goes from one segment to the next where d is the same. Across a bend's inner side d^2 keeps its value

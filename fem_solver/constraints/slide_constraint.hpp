@@ -15,14 +15,13 @@ using core::Vector3;
 ///     d = B - A    r = C - A    t = r_a/d_a    g_b = r_b - t d_b = 0  for the two directions b other than a
 ///     du_Cb = (1 - t) du_Ab + t du_Bb + (d_b/d_a) (du_Ca - (1 - t) du_Aa - t du_Ba) - g_b
 ///
-/// | symbol | variable   | meaning                                                                    | unit
-/// |
-/// |--------|------------|----------------------------------------------------------------------------|------|
-/// | a      | pivot      | direction of the largest component of d; the case distinction of eq. 10    | - |
-/// | b      | slaves     | the directions in which C follows                                          | - |
-/// | t      | fraction   | where C stands between A (0) and B (1)                                     | 1 |
-/// | g_b    | offsets    | how far C is off the line, measured along b; taken back by the next step   | m |
-/// | du     |            | change of displacement from this state                                     | m |
+/// | symbol | variable   | meaning                                                                  | unit |
+/// |--------|------------|--------------------------------------------------------------------------|------|
+/// | a      | pivot      | direction of the largest component of d; the case distinction of eq. 10  | -    |
+/// | b      | slaves     | the directions in which C follows                                        | -    |
+/// | t      | fraction   | where C stands between A (0) and B (1)                                   | 1    |
+/// | g_b    | offsets    | how far C is off the line, measured along b; taken back by the next step | m    |
+/// | du     |            | change of displacement from this state                                   | m    |
 ///
 /// This is the full derivative of eq. 11. Eq. 13 as printed keeps d_X in the denominator fixed and takes t
 /// from the reference state, so that forces carried over by its weights have a moment once the rope turns or

@@ -44,18 +44,17 @@ bool SlideProjection::project(const Step& step, std::span<double> velocities) no
   return converged;
 }
 
-/// residual = -P (dg/dt + g/dt) after the starting impulses. @returns the square at which it is round-off: of
+/// residual = -P (dg/dt + g/dt) without impulses. @returns the square at which it is round-off: of
 /// the velocities that its differences are taken of, however small these are themselves
 double SlideProjection::start_residuals(const Step& step, std::span<const double> velocities) noexcept {
-  spread(impulse_, step);
+  std::ranges::fill(impulse_, 0.0);
   double speeds = 0;
   for (std::size_t k = 0; k < sizes_.sliders; ++k) {
-    const Vector3 changed = relative(k, change_), back = relative(k, step.positions) / step.length;
-    at(residual_, k) = across(k, -relative(k, velocities) - back - changed);
+    const Vector3 back = relative(k, step.positions) / step.length;
+    at(residual_, k) = across(k, -relative(k, velocities) - back);
     speeds += at(velocities, sizes_.rope_nodes + k).squaredNorm() +
               at(velocities, contacts_[k].segment).squaredNorm() +
-              at(velocities, contacts_[k].segment + 1).squaredNorm() + changed.squaredNorm() +
-              back.squaredNorm();
+              at(velocities, contacts_[k].segment + 1).squaredNorm() + back.squaredNorm();
   }
   return closeness * closeness * speeds;
 }
@@ -93,8 +92,7 @@ double SlideProjection::weighted_residual(const Step& step) const noexcept {
   return sum;
 }
 
-/// Where each slider stands, and whether it is about to leave the rope; last step's impulses are turned into
-/// the new range of P.
+/// Where each slider stands, and whether it is about to leave the rope.
 void SlideProjection::find_contacts(const Step& step, std::span<const double> velocities) noexcept {
   const std::size_t last = sizes_.rope_nodes - 2;
   const auto node = [&](std::size_t k) { return Vector3(at(step.positions, k)); };
@@ -113,7 +111,6 @@ void SlideProjection::find_contacts(const Step& step, std::span<const double> ve
       const double outward = relative(k, velocities).dot(contact.along);
       contact.at_end = first_end ? outward < 0 : outward > 0;
     }
-    at(impulse_, k) = across(k, at(impulse_, k));
   }
 }
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -13,22 +12,23 @@ using core::Vector3;
 /// Sliders on a rope in explicit dynamics, by multi-point constraints. Source: [P eq. 8-13 and the explicit
 /// form after it]; Gauss's principle of least constraint.
 ///
-///     gap of slider k:  g = C - (1 - t) A - t B        w = B - A        P = I - w w^T/w.w;  I at an end of
-///     the rope velocities after the free step get impulses p_k:  dv_C = p/m_C,  dv_A = -(1 - t) p/m_A,  dv_B
-///     = -t p/m_B so that P (dg/dt + g/dt) = 0 for every slider at once,  p_k in the range of P
+///     gap of slider k:  g = C - (1 - t) A - t B        w = B - A
+///     P = I - w w^T/w.w;  I at an end of the rope
+///     velocities after the free step get impulses p_k:
+///         dv_C = p/m_C,  dv_A = -(1 - t) p/m_A,  dv_B = -t p/m_B
+///     so that P (dg/dt + g/dt) = 0 for every slider at once,  p_k in the range of P
 ///
-/// | symbol | variable | meaning                                                                        |
-/// unit |
-/// |--------|----------|--------------------------------------------------------------------------------|------|
-/// | t      | fraction | where the slider's foot stands on its segment, at the step's start              | 1
-/// | | P      | across   | only what moves the slider off its line is stopped                              |
-/// 1    | | p      | impulse  | what the rope does to the slider in this step | N s  | | dt     | step     |
-/// the step's length; the offset g of the last step is taken back by this one       | s    |
+/// | symbol | variable | meaning                                                                  | unit |
+/// |--------|----------|--------------------------------------------------------------------------|------|
+/// | t      | fraction | where the slider's foot stands on its segment, at the step's start       | 1    |
+/// | P      | across   | only what moves the slider off its line is stopped                       | 1    |
+/// | p      | impulse  | what the rope does to the slider in this step                            | N s  |
+/// | dt     | step     | the step's length; the offset g of the last step is taken back by this   | s    |
 ///
 /// This equals eliminating the slave directions with residual and mass condensed, (L^T M L) a = L^T res,
 /// without a choice of slave directions and with masses staying lumped. The system of the impulses is
-/// symmetric, as large as there are sliders, and solved by conjugate gradients, each step starting from the
-/// last one's impulses. Segments are searched every step, so sliders are handed over at corners; one that
+/// symmetric, as large as there are sliders, and solved by conjugate gradients that start from zero: a step
+/// depends on the state alone. Segments are searched every step, so sliders are handed over at corners; one that
 /// runs past the rope's end is held at the end node until it turns back. Proven by
 /// (elements_constraints.cpp): "projecting velocities equals the condensed equations of motion".
 class SlideProjection {
@@ -52,8 +52,6 @@ class SlideProjection {
   };
   bool project(const Step& step, std::span<double> velocities) noexcept;
 
-  /// Lets the next step's iteration start from zero impulses, so that it depends on the state alone.
-  void start_from_nothing() noexcept { std::fill(impulse_.begin(), impulse_.end(), 0.0); }
   /// Largest distance of a slider from the rope at the last step's start (m).
   double largest_violation() const noexcept;
   /// Of slider k at the last step's start.

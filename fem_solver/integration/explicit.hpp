@@ -44,17 +44,17 @@ struct ExplicitState {
 /// Central differences with lumped masses, in leapfrog form (Belytschko, Liu, Moran, Nonlinear Finite
 /// Elements, section 6.2):
 ///
-///     v(n+1/2) = ((1 - a k/2) v(n-1/2) + k F(n)/m)/(1 + a k/2)      u(n+1) = u(n) + dt v(n+1/2)      k =
-///     (dt_before + dt)/2
+///     v(n+1/2) = ((1 - a k/2) v(n-1/2) + k F(n)/m)/(1 + a k/2)      u(n+1) = u(n) + dt v(n+1/2)
+///     k = (dt_before + dt)/2
 ///
-/// | symbol | variable         | meaning                                                           | unit |
-/// |--------|------------------|-------------------------------------------------------------------|------|
-/// | v      | velocity         | nodal velocity, half a step before the displacement's time         | m/s  |
-/// | F      | force            | external forces minus dU/du minus b K v(n-1/2)                     | N    |
-/// | m      | node mass        |                                                                   | kg   |
-/// | a, b   | damping          | mass- and stiffness-proportional Rayleigh factors                  | 1/s, s
-/// | | k      | kick             | from the middle of the last step to the middle of this one; before the
-/// first step dt_before = 0, which is the half-step start | s |
+/// | symbol | variable  | meaning                                                                  | unit   |
+/// |--------|-----------|--------------------------------------------------------------------------|--------|
+/// | v      | velocity  | nodal velocity, half a step before the displacement's time               | m/s    |
+/// | F      | force     | external forces minus dU/du minus b K v(n-1/2)                           | N      |
+/// | m      | node mass |                                                                          | kg     |
+/// | a, b   | damping   | mass- and stiffness-proportional Rayleigh factors                        | 1/s, s |
+/// | k      | kick      | from the middle of the last step to the middle of this one; before the   | s      |
+/// |        |           | first step dt_before = 0, which is the half-step start                   |        |
 ///
 /// Mass damping is centred and costs no stability; stiffness damping lags by half a step and lowers the
 /// limit, see step_limit.hpp. Invariant of an undamped run: 1/2 v(n-1/2).m v(n+1/2) + U(u(n)) - work, exactly

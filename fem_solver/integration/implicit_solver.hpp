@@ -25,12 +25,12 @@ struct ImplicitOptions {
 ///     u1 = u0 + dt v0 + dt^2 ((1/2 - b) a0 + b a1)      v1 = v0 + dt ((1 - g) a0 + g a1)
 ///     am = (2 r - 1)/(r + 1)   af = r/(r + 1)   g = 1/2 - am + af   b = (1 - am + af)^2/4
 ///
-/// | symbol   | variable        | meaning                                                        | unit  |
-/// |----------|-----------------|----------------------------------------------------------------|-------|
-/// | r        | spectral_radius | of the step's amplification at infinite frequency, 0 to 1       | 1     |
-/// | u, v, a  |                 | displacement, velocity, acceleration; 0 at the start, 1 at the end | m ...
-/// | | M, C     |                 | lumped mass; Rayleigh damping a M + b K with K of the step's start | kg
-/// ... | | F        |                 | external minus internal forces                                 | N |
+/// | symbol  | variable        | meaning                                                            | unit      |
+/// |---------|-----------------|--------------------------------------------------------------------|-----------|
+/// | r       | spectral_radius | of the step's amplification at infinite frequency, 0 to 1          | 1         |
+/// | u, v, a |                 | displacement and its rates; 0 at the step's start, 1 at its end    | m, ...    |
+/// | M, C    |                 | lumped mass; Rayleigh damping a M + b K with K of the step's start | kg, N s/m |
+/// | F       |                 | external minus internal forces                                     | N         |
 ///
 /// Second order, unconditionally stable for linear structures. At r = 1 it is the trapezoidal rule.
 /// Proven by: "the trapezoidal rule turns a linear oscillator by its own angle" (implicit_test.cpp).

@@ -27,10 +27,8 @@ SlideRun::SlideRun(const Model& model, const SlideLine& line)
   });
 }
 
-// Impulses start from nothing: every number of a step comes from the state, so that restored runs repeat it.
 bool SlideRun::project(const Step& step, const Arrays& arrays) noexcept {
   take(step, arrays);
-  projection_.start_from_nothing();
   const bool converged = projection_.project({positions_, inverse_masses_, step.length}, velocities_);
   give(step, arrays);
   pull_supports(step.force_factor, arrays.reactions);

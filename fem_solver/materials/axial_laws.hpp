@@ -19,8 +19,10 @@ struct AxialResponse {
 /// Elastic-plastic rope, tension only. Source: one-dimensional return mapping, Simo and Hughes, Computational
 /// Inelasticity, box 1.4, in Green-Lagrange strain and second Piola-Kirchhoff stress.
 ///
-///     S = E (e - p) + S_pre, at most Y + H p          beyond it  dp = (S_trial - Y - H p)/(E + H),  dS/de =
-///     E H/(E + H) N = A S l/L; S < 0 is slack: N = 0 stored: A L ((S^2 - S_pre^2)/(2 E) + H p^2/2)
+///     S = E (e - p) + S_pre, at most Y + H p
+///     beyond it  dp = (S_trial - Y - H p)/(E + H),  dS/de = E H/(E + H)
+///     N = A S l/L;  S < 0 is slack: N = 0
+///     stored:     A L ((S^2 - S_pre^2)/(2 E) + H p^2/2)
 ///     dissipated: A L Y p
 ///
 /// | symbol | variable         | meaning                                          | unit |
@@ -57,8 +59,9 @@ struct ElasticPlasticRope {
 ///
 /// | symbol | variable        | meaning                                                            | unit |
 /// |--------|-----------------|--------------------------------------------------------------------|------|
-/// | T      | table           | force over elongation, linear between points, from (0, 0); constant after the
-/// last one | N | | k0     |                 | slope of the table's first piece, the steepest of all | N/m  |
+/// | T      | table           | force over elongation, from (0, 0), linear between points,         | N    |
+/// |        |                 | constant after the last one                                        |      |
+/// | k0     |                 | slope of the table's first piece, the steepest of all              | N/m  |
 /// | m      | history         | largest elongation, never falls                                    | m    |
 /// | u_end  |                 | elongation of the table's last point: the end of travel            | m    |
 /// | ks     | stop_stiffness  | elastic stiffness past the end of travel                           | N/m  |

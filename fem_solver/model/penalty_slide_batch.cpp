@@ -3,6 +3,13 @@
 #include <algorithm>
 
 namespace talus::fem {
+namespace {
+
+Vector3 node_value(std::span<const double> values, Index node) {
+  return Vector3::Map(&values[3 * static_cast<std::size_t>(node)]);
+}
+
+}  // namespace
 
 PenaltySlideBatch::PenaltySlideBatch(SlideLine line, double penalty, std::span<const double> reference)
     : line_(std::move(line)), penalty_(penalty), reference_(reference.begin(), reference.end()) {
@@ -10,98 +17,82 @@ PenaltySlideBatch::PenaltySlideBatch(SlideLine line, double penalty, std::span<c
 }
 
 Vector3 PenaltySlideBatch::position(std::span<const double> displacement, Index node) const noexcept {
-  const auto at = 3 * static_cast<std::size_t>(node);
-  return Vector3::Map(&reference_[at]) + Vector3::Map(&displacement[at]);
+  return node_value(reference_, node) + node_value(displacement, node);
 }
 
-PenaltySlideBatch::Contact PenaltySlideBatch::find(std::span<const double> displacement,
-                                                   std::size_t slider) const noexcept {
+PenaltySlideBatch::Contact PenaltySlideBatch::contact(std::span<const double> displacement,
+                                                      std::size_t slider) const noexcept {
   const auto node = [&](std::size_t k) { return position(displacement, line_.rope[k]); };
-  return {
-      nearest_segment(line_.rope.size() - 1, node, position(displacement, line_.sliders[slider])).segment};
+  const Vector3 place = position(displacement, line_.sliders[slider]);
+  const std::size_t segment = nearest_segment(line_.rope.size() - 1, node, place).segment;
+  return {segment, {{node(segment), node(segment + 1), place}, penalty_}};
 }
 
-PenaltySlide PenaltySlideBatch::spring(std::span<const double> displacement, const Contact& contact,
-                                       std::size_t slider) const noexcept {
-  return {{position(displacement, line_.rope[contact.segment]),
-           position(displacement, line_.rope[contact.segment + 1]),
-           position(displacement, line_.sliders[slider])},
-          penalty_};
+template <class ForceOn>
+void PenaltySlideBatch::fill_slots(std::span<const double> displacement, std::span<double> slots,
+                                   ForceOn&& force_on) const noexcept {
+  const std::size_t sliders = line_.sliders.size();
+  std::fill_n(slots.begin(), 3 * (sliders + line_.rope.size()), 0.0);
+  for (std::size_t k = 0; k < sliders; ++k) {
+    const Contact touched = contact(displacement, k);
+    const PenaltySlide::Nodes force = force_on(k, touched);
+    double* rope = &slots[3 * (sliders + touched.segment)];
+    Vector3::Map(&slots[3 * k]) = force.C;
+    Vector3::Map(rope) += force.A;
+    Vector3::Map(rope + 3) += force.B;
+  }
 }
 
 void PenaltySlideBatch::internal_force(std::span<const double> displacement, std::span<double> slots,
                                        core::Block) const noexcept {
-  const std::size_t sliders = line_.sliders.size();
-  std::fill_n(slots.begin(), 3 * (sliders + line_.rope.size()), 0.0);
-  for (std::size_t k = 0; k < sliders; ++k) {
-    const Contact contact = find(displacement, k);
-    const PenaltySlide slide = spring(displacement, contact, k);
-    const Vector3 force = slide.slider_force();
-    double* rope = &slots[3 * (sliders + contact.segment)];
-    Vector3::Map(&slots[3 * k]) = force;
-    Vector3::Map(rope) -= (1 - slide.fraction()) * force;
-    Vector3::Map(rope + 3) -= slide.fraction() * force;
-  }
+  fill_slots(displacement, slots, [](std::size_t, const Contact& touched) -> PenaltySlide::Nodes {
+    const Vector3 force = touched.spring.slider_force();
+    const double fraction = touched.spring.fraction();
+    return {-(1 - fraction) * force, -fraction * force, force};
+  });
 }
 
 void PenaltySlideBatch::stiffness_product(std::span<const double> displacement,
                                           std::span<const double> direction, std::span<double> slots,
                                           core::Block) const noexcept {
-  const std::size_t sliders = line_.sliders.size();
-  std::fill_n(slots.begin(), 3 * (sliders + line_.rope.size()), 0.0);
-  const auto change = [&](Index node) {
-    return Vector3(Vector3::Map(&direction[3 * static_cast<std::size_t>(node)]));
-  };
-  for (std::size_t k = 0; k < sliders; ++k) {
-    const Contact contact = find(displacement, k);
-    const auto product =
-        spring(displacement, contact, k)
-            .stiffness_product({change(line_.rope[contact.segment]), change(line_.rope[contact.segment + 1]),
-                                change(line_.sliders[k])});
-    double* rope = &slots[3 * (sliders + contact.segment)];
-    Vector3::Map(&slots[3 * k]) = product.C;
-    Vector3::Map(rope) += product.A;
-    Vector3::Map(rope + 3) += product.B;
-  }
+  fill_slots(displacement, slots, [&](std::size_t k, const Contact& touched) {
+    const Index* rope = &line_.rope[touched.segment];
+    return touched.spring.stiffness_product({node_value(direction, rope[0]), node_value(direction, rope[1]),
+                                             node_value(direction, line_.sliders[k])});
+  });
 }
 
 void PenaltySlideBatch::stiffest_product(std::span<const double> displacement,
                                          std::span<const double> direction, std::span<double> slots,
                                          core::Block) const noexcept {
-  const std::size_t sliders = line_.sliders.size();
-  std::fill_n(slots.begin(), 3 * (sliders + line_.rope.size()), 0.0);
-  const auto change = [&](Index node) {
-    return Vector3::Map(&direction[3 * static_cast<std::size_t>(node)]);
-  };
-  for (std::size_t k = 0; k < sliders; ++k) {
-    const Contact contact = find(displacement, k);
-    const double fraction = spring(displacement, contact, k).fraction();
-    const std::size_t nearest = contact.segment + (fraction > 0.5 ? 1 : 0);
-    const Vector3 pull = penalty_ * (change(line_.sliders[k]) - change(line_.rope[nearest]));
-    Vector3::Map(&slots[3 * k]) = pull;
-    Vector3::Map(&slots[3 * (sliders + nearest)]) -= pull;
-  }
+  fill_slots(displacement, slots, [&](std::size_t k, const Contact& touched) -> PenaltySlide::Nodes {
+    const bool second_is_nearer = touched.spring.fraction() > 0.5;
+    const Index nearest = line_.rope[touched.segment + (second_is_nearer ? 1 : 0)];
+    const Vector3 pull =
+        penalty_ * (node_value(direction, line_.sliders[k]) - node_value(direction, nearest));
+    if (second_is_nearer) return {Vector3::Zero(), -pull, pull};
+    return {-pull, Vector3::Zero(), pull};
+  });
 }
 
 double PenaltySlideBatch::energy(std::span<const double> displacement) const noexcept {
   double sum = 0;
-  for (std::size_t k = 0; k < line_.sliders.size(); ++k)
-    sum += spring(displacement, find(displacement, k), k).energy();
+  for (std::size_t k = 0; k < line_.sliders.size(); ++k) sum += contact(displacement, k).spring.energy();
   return sum;
 }
 
 double PenaltySlideBatch::gap(std::span<const double> displacement, std::size_t slider) const noexcept {
-  return spring(displacement, find(displacement, slider), slider).gap();
+  return contact(displacement, slider).spring.gap();
 }
 
 double PenaltySlideBatch::place(std::span<const double> displacement, std::size_t slider) const noexcept {
-  const Contact contact = find(displacement, slider);
+  const auto [nearest, spring] = contact(displacement, slider);
   const auto length = [&](std::size_t segment) {
     return (position(displacement, line_.rope[segment + 1]) - position(displacement, line_.rope[segment]))
         .norm();
   };
-  double sum = spring(displacement, contact, slider).fraction() * length(contact.segment);
-  for (std::size_t segment = 0; segment < contact.segment; ++segment) sum += length(segment);
+  double sum = spring.fraction() * length(nearest);
+  for (std::size_t segment = 0; segment < nearest; ++segment) sum += length(segment);
   return sum;
 }
 

@@ -56,18 +56,18 @@ class PenaltySlideBatch {
   template <class Sink>
   void stiffness(std::span<const double> displacement, const Sink& sink) const {
     for (std::size_t k = 0; k < line_.sliders.size(); ++k) {
-      const Contact contact = find(displacement, k);
-      const PenaltySlide::Matrix9 K = spring(displacement, contact, k).stiffness();
+      const auto [segment, spring] = contact(displacement, k);
+      const PenaltySlide::Matrix9 K = spring.stiffness();
       const auto block = [&](int i, int j) { return Matrix3(K.block<3, 3>(3 * i, 3 * j)); };
       const Index slider = line_.sliders[k];
       sink(slider, slider, block(2, 2));
       for (std::size_t r = 0; r < line_.rope.size(); ++r) {
-        const int own = r == contact.segment ? 0 : r == contact.segment + 1 ? 1 : -1;
+        const int own = r == segment ? 0 : r == segment + 1 ? 1 : -1;
         sink(slider, line_.rope[r], own < 0 ? zero() : block(2, own));
         sink(line_.rope[r], slider, own < 0 ? zero() : block(own, 2));
         sink(line_.rope[r], line_.rope[r], own < 0 ? zero() : block(own, own));
         if (r + 1 == line_.rope.size()) break;
-        const bool inside = r == contact.segment;
+        const bool inside = r == segment;
         sink(line_.rope[r], line_.rope[r + 1], inside ? block(0, 1) : zero());
         sink(line_.rope[r + 1], line_.rope[r], inside ? block(1, 0) : zero());
       }
@@ -75,14 +75,18 @@ class PenaltySlideBatch {
   }
 
  private:
-  struct Contact {
-    std::size_t segment = 0;
-  };
   static Matrix3 zero() { return Matrix3::Zero(); }
   Vector3 position(std::span<const double> displacement, Index node) const noexcept;
-  Contact find(std::span<const double> displacement, std::size_t slider) const noexcept;
-  PenaltySlide spring(std::span<const double> displacement, const Contact& contact,
-                      std::size_t slider) const noexcept;
+  /// A slider's spring at the segment of the rope that is nearest to it.
+  struct Contact {
+    std::size_t segment = 0;
+    PenaltySlide spring;
+  };
+  Contact contact(std::span<const double> displacement, std::size_t slider) const noexcept;
+  /// Fills the slots with force_on(slider, contact): forces on the segment's two nodes and on the slider.
+  template <class ForceOn>
+  void fill_slots(std::span<const double> displacement, std::span<double> slots,
+                  ForceOn&& force_on) const noexcept;
 
   SlideLine line_;
   double penalty_;

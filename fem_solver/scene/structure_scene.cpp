@@ -3,11 +3,6 @@
 #include <algorithm>
 
 namespace talus::fem {
-namespace {
-
-constexpr std::size_t explicit_method = 1;  // in MethodScene; 0: not named, explicit too
-
-}  // namespace
 
 void describe(core::Fields& fields, PartScene& part) {
   part.place = fields.place();
@@ -81,12 +76,11 @@ void describe(core::Fields& fields, StructureScene& structure) {
   const bool constrained = std::ranges::any_of(structure.slides, [](const NamedSlide& slide) {
     return std::holds_alternative<ConstraintSlideScene>(slide.second.method);
   });
-  const bool is_explicit = structure.method.index() <= explicit_method;
-  fields.rule(!constrained || is_explicit, "slides",
+  fields.rule(!constrained || is_explicit(structure.method), "slides",
               "hold by constraints in explicit runs only; take `penalty`, or a `sliding_cable` for the rope");
   fields.section("mass_scaling", structure.mass_scaling,
                  "mass on light nodes, for a longer explicit step at the price of slower waves");
-  fields.rule(!structure.mass_scaling || is_explicit, "mass_scaling",
+  fields.rule(!structure.mass_scaling || is_explicit(structure.method), "mass_scaling",
               "is for explicit runs: others have no limit");
   fields.optional("step", structure.step,
                   {.unit = "s",

@@ -59,6 +59,10 @@ struct StaticScene {
 void describe(core::Fields& fields, StaticScene& method);
 
 using MethodScene = std::variant<std::monostate, ExplicitScene, ImplicitScene, StaticScene>;
+/// Also where the scene names no method.
+inline bool is_explicit(const MethodScene& method) {
+  return std::holds_alternative<std::monostate>(method) || std::holds_alternative<ExplicitScene>(method);
+}
 
 struct StructureScene {
   std::optional<std::string> solver;

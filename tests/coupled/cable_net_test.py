@@ -1,50 +1,29 @@
 """The first scene of the README, run as a user runs it, against an independent computation of the same scene.
 
 Arguments: the folder of the repository, the folder of the build."""
-import csv
-import json
-import pathlib
-import subprocess
 import sys
-import tempfile
 import unittest
 
 import h5py
 
-ROOT, BUILD = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2])
+from scene_run import Run
+
 # python/reference/rock_on_net.py at 2.5 us; at 5 and 10 us it differs by less than 1e-5 m.
 PEAK, PEAK_AT, BOULDER_END, STONE_END = -0.121689, 0.077415, 0.45795, -0.84823
-
-
-def run(scene: str, folder: str, *extra: str) -> tuple[pathlib.Path, dict]:
-    result = pathlib.Path(folder, scene)
-    command = [BUILD / "bin/talus", "run", ROOT / f"configs/examples/{scene}.yaml", "--out", result, "--quiet", *extra]
-    subprocess.run(command, check=True)
-    return result, json.loads((result / "summary.json").read_text())
-
-
-def column(result: pathlib.Path, name: str) -> list[float]:
-    with open(result / "probes.csv", newline="") as file:
-        return [float(row[name]) for row in csv.DictReader(file)]
 
 
 class RockOnCableNet(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.folder = tempfile.TemporaryDirectory()
-        cls.results = {scene: run(scene, cls.folder.name) for scene in ("cable_net", "cable_net_converged", "cable_net_implicit")}
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.folder.cleanup()
+        cls.runs = {scene: Run(f"examples/{scene}") for scene in ("cable_net", "cable_net_converged", "cable_net_implicit")}
 
     def assert_is_the_converged_motion(self, scene: str, relative: float):
-        result, summary = self.results[scene]
-        peak = summary["peaks"]["net_centre.displacement_z_m"]
+        run = self.runs[scene]
+        peak = run.summary["peaks"]["net_centre.displacement_z_m"]
         self.assertAlmostEqual(peak["value"], PEAK, delta=relative * abs(PEAK))
         self.assertAlmostEqual(peak["time_s"], PEAK_AT, delta=0.5e-3)  # the distance of two rows
-        self.assertAlmostEqual(column(result, "boulder.position_z_m")[-1], BOULDER_END, delta=relative)
-        self.assertAlmostEqual(column(result, "stone.position_z_m")[-1], STONE_END, delta=relative)
+        self.assertAlmostEqual(run.column("boulder.position_z_m")[-1], BOULDER_END, delta=relative)
+        self.assertAlmostEqual(run.column("stone.position_z_m")[-1], STONE_END, delta=relative)
 
     def test_at_the_converged_step_it_moves_as_the_independent_computation_says(self):
         self.assert_is_the_converged_motion("cable_net_converged", 0.01)
@@ -53,37 +32,35 @@ class RockOnCableNet(unittest.TestCase):
         self.assert_is_the_converged_motion("cable_net_implicit", 0.01)
 
     def test_the_published_step_overshoots_and_says_so(self):
-        _, summary = self.results["cable_net"]
+        summary = self.runs["cable_net"].summary
         self.assertLess(summary["peaks"]["net_centre.displacement_z_m"]["value"], 1.2 * PEAK)
         self.assertTrue(any("contact dashpot on boundary nodes" in warning for warning in summary["warnings"]))
 
     def test_the_standard_files_are_there_and_open(self):
-        result, summary = self.results["cable_net"]
-        self.assertEqual(summary["status"], "finished")
+        run = self.runs["cable_net"]
+        self.assertEqual(run.summary["status"], "finished")
         for name in ("summary.json", "probes.csv", "energy.csv", "fields.h5", "fields.xdmf", "log.txt"):
-            self.assertTrue((result / name).is_file(), name)
-        self.assertEqual(len(column(result, "net_centre.displacement_z_m")), 401)
-        with h5py.File(result / "fields.h5") as fields:
+            self.assertTrue((run.result / name).is_file(), name)
+        self.assertEqual(len(run.column("net_centre.displacement_z_m")), 401)
+        with h5py.File(run.result / "fields.h5") as fields:
             self.assertGreater(len(fields), 0)
 
     def test_energy_is_balanced_at_the_converged_step(self):
         # What remains is the law's own: a contact that a nearer one overshadows ends with its spring still pressed, and no path
         # leads from one to the other. It does not shrink with the step (1.8 % at 6.25 us).
-        _, summary = self.results["cable_net_converged"]
-        self.assertLess(abs(summary["energy"]["largest_error_relative"]), 0.03)
+        self.assertLess(self.runs["cable_net_converged"].energy_error(), 0.03)
+
+    def assert_same_bits_with(self, *options: str):
+        second = Run("examples/cable_net", options=options)
+        self.assertTrue(second.summary)
+        for name in ("probes.csv", "energy.csv"):
+            self.assertEqual((self.runs["cable_net"].result / name).read_bytes(), (second.result / name).read_bytes(), name)
 
     def test_a_second_run_has_the_same_bits(self):
-        first, _ = self.results["cable_net"]
-        with tempfile.TemporaryDirectory() as folder:
-            second, _ = run("cable_net", folder)
-            for name in ("probes.csv", "energy.csv"):
-                self.assertEqual((first / name).read_bytes(), (second / name).read_bytes(), name)
+        self.assert_same_bits_with()
 
     def test_the_number_of_threads_does_not_change_a_bit(self):
-        first, _ = self.results["cable_net"]
-        with tempfile.TemporaryDirectory() as folder:
-            second, _ = run("cable_net", folder, "--threads", "2")
-            self.assertEqual((first / "probes.csv").read_bytes(), (second / "probes.csv").read_bytes())
+        self.assert_same_bits_with("--threads", "2")
 
 
 if __name__ == "__main__":

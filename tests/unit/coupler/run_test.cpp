@@ -32,26 +32,22 @@ TEST_CASE("a million windows are a million windows, not one more by round-off") 
 }
 
 TEST_CASE("work is force times path, window by window") {
-  WorkMeter meter(ForceMeaning::mean);
   const std::vector<double> force{0, 2, -1}, start{5, 1, 1}, end{7, 4, 3}, still{0, 0, 0};
   constexpr double expected = 2 * (4 - 1) + -1 * (3 - 1);
-  meter.begin(force, {start, still}, 0.1);
-  CHECK(meter.end(force, end) == expected);
-  CHECK(meter.end(force, end) == 0);  // no window was begun
-  meter.begin(force, {end, still}, 0.1);
-  CHECK(meter.end(force, end) == 0);  // nothing moved
+  constexpr WorkMeter::Window window{ForceMeaning::mean, 0.1};
+  CHECK(WorkMeter(window, force, {start, still}).end(force, end) == expected);
+  CHECK(WorkMeter(window, force, {end, still}).end(force, end) == 0);  // nothing moved
   CHECK(work_on_path(force, start, end) == expected);
 }
 
 TEST_CASE("the work of forces at a window's start is what the leapfrog's kinetic energy gains") {
   constexpr double mass = 2, step = 0.01;
-  WorkMeter meter(ForceMeaning::at_start);
   std::vector<double> position{0}, velocity{1}, force{0};
   const double first_velocity = velocity[0];
   double work = 0;
   for (int n = 0; n < 100; ++n) {
     force[0] = 30 * std::sin(0.1 * n) - 4 * position[0];
-    meter.begin(force, {position, velocity}, step);
+    const WorkMeter meter({ForceMeaning::at_start, step}, force, {position, velocity});
     velocity[0] += step * force[0] / mass;
     position[0] += step * velocity[0];
     work += meter.end(force, position);

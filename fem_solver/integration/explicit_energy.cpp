@@ -1,0 +1,93 @@
+// What an explicit run knows of its energies. The step itself: explicit.cpp.
+#include "fem_solver/integration/explicit.hpp"
+#include "fem_solver/integration/external_force.hpp"
+
+namespace talus::fem {
+
+// A force at t_n does half its work over the step before t_n and half over the step after it; only so does
+// the sum of works match the leapfrog's invariant. arrive() books the first half, leave() keeps the second
+// for the next arrival.
+void ExplicitSolver::arrive(double time) noexcept {
+  const Powers power = powers(time);
+  const double half = 0.5 * state_.previous_step;
+  for (std::size_t k = 0; k < power.size(); ++k)
+    state_.works[k].done += state_.works[k].pending + half * power[k];
+}
+
+void ExplicitSolver::leave(double time, double step) noexcept {
+  const Powers power = powers(time);
+  for (std::size_t k = 0; k < power.size(); ++k) state_.works[k].pending = 0.5 * step * power[k];
+}
+
+ExplicitSolver::Powers ExplicitSolver::powers(double time) const noexcept {
+  Powers power{};
+  for (const auto& load : model_.loads) {
+    const Vector3 force = load.history.at(time) * load.force;
+    for (const Index node : load.nodes)
+      power[by_loads] += force.dot(Vector3::Map(&state_.velocity[3 * node]));
+  }
+  for_each_support(model_, [&](const Support& support, std::size_t dof, std::size_t offset) {
+    if (!support.moves()) return;
+    for (std::size_t c = 0; c < 3; ++c)
+      power[by_supports] += state_.reactions[offset + c] * state_.velocity[dof + c];
+  });
+  interface_.for_each([&](Index node, const auto& on_node) {
+    power[by_interface] += on_node.dot(Vector3::Map(&state_.velocity[3 * node]));
+  });
+  for (std::size_t i = 0; i < damping_force_.size(); ++i)
+    power[by_stiffness_damping] += damping_force_[i] * state_.velocity[i];
+  return power;
+}
+
+EnergyBalance ExplicitSolver::balance() {
+  if (state_.steps == 0) {
+    state_.kick = 0.5 * longest_step_;
+    evaluate_forces(0);
+    impose_supports(0, longest_step_);
+  }
+  const std::vector<double> displacement = displacement_at_evaluation();
+  EnergyBalance balance;
+  add_kinetic(balance);
+  for (const auto& part : model_.parts)
+    balance.elastic.push_back(
+        std::visit([&](const auto& batch) { return batch.energy(displacement); }, part.elements));
+  balance.dissipated = dissipated_by_parts(model_, displacement);
+  if (model_.gravity) {
+    for (Index node = 0; node < model_.nodes(); ++node)
+      balance.gravity -=
+          model_.node_masses[node] * model_.gravity->dot(Vector3::Map(&displacement[3 * node]));
+  }
+  balance.bulk_damping += state_.damped + state_.works[by_stiffness_damping].done;
+  balance.loads = state_.works[by_loads].done;
+  balance.supports = state_.works[by_supports].done;
+  balance.interface = state_.works[by_interface].done;
+  balance.slides = -state_.works[by_slides].done;
+  return balance;
+}
+
+std::vector<double> ExplicitSolver::displacement_at_evaluation() const {
+  std::vector<double> displacement = state_.displacement;
+  for (std::size_t i = 0; i < displacement.size(); ++i)
+    displacement[i] -= state_.previous_step * state_.velocity[i];
+  return displacement;
+}
+
+// The velocity half a step before the evaluation follows from the one behind it and the force, so no step has
+// to store it. Before the first step the stored velocity is that at the start, half a kick away from both.
+void ExplicitSolver::add_kinetic(EnergyBalance& balance) const {
+  const double half_damping = 0.5 * model_.damping.mass * state_.kick;
+  const bool at_start = state_.steps == 0;
+  double twice_kinetic = 0, damped_behind = 0;
+  for (std::size_t i = 0; i < state_.velocity.size(); ++i) {
+    const double mass = model_.node_masses[i / 3], v = state_.velocity[i];
+    const double change = state_.kick * inverse_mass_[i] * state_.force[i];
+    const double after = at_start ? ((1 - half_damping) * v + change) / (1 + half_damping) : v;
+    const double before = at_start ? 2 * v - after : ((1 + half_damping) * v - change) / (1 - half_damping);
+    twice_kinetic += mass * before * after;
+    damped_behind += mass * 0.5 * (before + after) * after;
+  }
+  balance.kinetic = 0.5 * twice_kinetic;
+  if (!at_start) balance.bulk_damping = -0.5 * model_.damping.mass * state_.previous_step * damped_behind;
+}
+
+}  // namespace talus::fem
