@@ -165,6 +165,7 @@ void serve_structure(const core::SceneFile& file, coupler::Participant& particip
        command = participant.next()) {
     obey(command, structure, participant);
     participant.answer();
+    structure.integrator().prepare();
   }
 }
 

@@ -8,9 +8,10 @@ SlideConstraint::SlideConstraint(const Nodes& nodes) noexcept {
   const Vector3 d = nodes.B - nodes.A, r = nodes.C - nodes.A;
   d.cwiseAbs().maxCoeff(&pivot);
   slaves = {(pivot + 1) % 3, (pivot + 2) % 3};
-  fraction = r[pivot] / d[pivot];
+  length = d[pivot];
+  fraction = r[pivot] / length;
   for (std::size_t i = 0; i < 2; ++i) {
-    slopes[i] = d[slaves[i]] / d[pivot];
+    slopes[i] = d[slaves[i]] / length;
     offsets[i] = r[slaves[i]] - fraction * d[slaves[i]];
   }
 }
@@ -33,6 +34,23 @@ SlideConstraint::Condensation SlideConstraint::condensation() const noexcept {
     L(6 + slave, 3 + pivot) = weights[4];
   }
   return L;
+}
+
+// By the chain rule from the derivatives with respect to q = (r_a, d_a, d_b), of which each is a difference of
+// two of the nine directions.
+SlideConstraint::Curvature SlideConstraint::curvature(const std::array<double, 2>& pulls) const noexcept {
+  Curvature sum = Curvature::Zero();
+  for (std::size_t i = 0; i < 2; ++i) {
+    const double slope = slopes[i];
+    Eigen::Matrix3d by_q;
+    by_q << 0, -slope, 1,  //
+        -slope, 2 * fraction * slope, -fraction, 1, -fraction, 0;
+    Eigen::Matrix<double, 3, 9> q = Eigen::Matrix<double, 3, 9>::Zero();
+    q(0, pivot) = q(1, pivot) = q(2, slaves[i]) = -1;
+    q(0, 6 + pivot) = q(1, 3 + pivot) = q(2, 3 + slaves[i]) = 1;
+    sum += pulls[i] / length * (q.transpose() * by_q * q);
+  }
+  return sum;
 }
 
 double SlideConstraint::violation() const noexcept {

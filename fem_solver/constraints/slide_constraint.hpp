@@ -50,11 +50,17 @@ struct SlideConstraint {
   using Condensation = Eigen::Matrix<double, 9, 7>;
   Condensation condensation() const noexcept;
 
+  /// Sum over the followers of pull_b d2F_b/du2, where u_Cb = F_b(u) is the constraint itself:
+  /// F_b = A_b + r_a d_b/d_a. Rows and columns: A, B, C. @param pulls on each follower (N)
+  using Curvature = Eigen::Matrix<double, 9, 9>;
+  Curvature curvature(const std::array<double, 2>& pulls) const noexcept;
+
   /// Distance of C from the line through A and B (m).
   double violation() const noexcept;
 
   int pivot = 0;
   std::array<int, 2> slaves{};
+  double length = 0;  ///< d_a, m
   double fraction = 0;
   std::array<double, 2> slopes{};   ///< d_b/d_a of each follower
   std::array<double, 2> offsets{};  ///< g_b, m

@@ -78,6 +78,7 @@ void ExplicitSolver::archive(core::StateArchive& archive) {
   std::vector<double> numbers{state_.previous_step, state_.kick, state_.damped};
   for (const auto& work : state_.works) numbers.insert(numbers.end(), {work.done, work.pending});
   archive.values("times_and_works", numbers);
+  prepared_ = false;
   state_.previous_step = numbers[0];
   state_.kick = numbers[1];
   state_.damped = numbers[2];
@@ -98,6 +99,7 @@ void ExplicitSolver::step(double time, double step) {
   leave(time, step);
   state_.previous_step = step;
   ++state_.steps;
+  prepared_ = false;
   if (!std::isfinite(activity)) report_blow_up(time + step);
   if (watch_ && state_.steps % StepWatch::interval == 0)
     watch_->look({state_.displacement, step, time + step, state_.steps, last_output_time});
@@ -109,15 +111,25 @@ void ExplicitSolver::evaluate_forces(double time) noexcept {
       [&](Index node, const auto& on_node) { Vector3::Map(&state_.force[3 * node]) += on_node; });
 }
 
+void ExplicitSolver::prepare() {
+  if (prepared_) return;
+  element_force_.resize(state_.displacement.size());
+  assembly_.internal_force(state_.displacement, element_force_);
+  prepared_ = true;
+}
+
 void ExplicitSolver::evaluate_own_forces(double time, std::span<double> force) noexcept {
-  assembly_.internal_force(state_.displacement, force);
+  if (prepared_)
+    std::ranges::copy(element_force_, force.begin());
+  else
+    assembly_.internal_force(state_.displacement, force);
   if (model_.damping.stiffness > 0) subtract_stiffness_damping(force);
   add_external_force(model_, {}, {.time = time}, force);
 }
 
-// The step evaluates these forces once more: state_.force has to stay that of the last step, which the energy
-// balance reads.
+// Not in state_.force, which has to stay that of the last step: the energy balance reads it.
 std::span<const double> ExplicitSolver::free_velocity(double time, double step) {
+  prepare();
   free_velocity_.resize(state_.velocity.size());
   evaluate_own_forces(time, free_velocity_);
   const double kick = 0.5 * (state_.previous_step + step), half_damping = 0.5 * model_.damping.mass * kick;

@@ -67,6 +67,7 @@ class ExplicitSolver final : public Integrator {
   ExplicitSolver(const Model& model, Assembly& assembly, double step);
 
   void advance(double time, double length) override;
+  void prepare() override;
   std::span<const double> displacement() const override { return state_.displacement; }
   std::span<const double> velocity() const override { return state_.velocity; }
   std::span<const double> reactions() const override { return state_.reactions; }
@@ -78,7 +79,10 @@ class ExplicitSolver final : public Integrator {
   void save() override { saved_.take(state_, model_); }
   void archive(core::StateArchive& archive) override;
   const char* method() const override { return "fem_solver explicit"; }
-  void restore() override { saved_.put_back(state_, model_); }
+  void restore() override {
+    saved_.put_back(state_, model_);
+    prepared_ = false;
+  }
 
   /// One step from `time` to `time + step` (s).
   /// @throws NumericalError if a velocity stops being finite
@@ -87,7 +91,11 @@ class ExplicitSolver final : public Integrator {
   /// From here on the run ends with a NumericalError where the structure stiffens beyond its step.
   void watch_step() { watch_.emplace(assembly_); }
 
-  ExplicitState& state() { return state_; }
+  /// To change it.
+  ExplicitState& state() {
+    prepared_ = false;
+    return state_;
+  }
   const ExplicitState& state() const { return state_; }
 
  private:
@@ -138,6 +146,8 @@ class ExplicitSolver final : public Integrator {
   std::vector<double> mass_;             ///< kg; of each direction, only where the scene names mass damping
   std::vector<double> damping_force_;    ///< N; b K v, only where the scene names stiffness damping
   std::vector<double> free_velocity_;    ///< m/s; only where somebody asks for it
+  std::vector<double> element_force_;    ///< N; of the elements at the present state, where prepared
+  bool prepared_ = false;
   core::OrderedSum<> sum_;
 };
 

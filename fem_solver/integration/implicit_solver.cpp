@@ -68,10 +68,9 @@ void ImplicitSolver::start(double time) {
   total_force(time, state_.displacement, state_.force);
   std::vector<double> sum = state_.force;
   add_damping(-1, state_.velocity, sum);
-  for (Index k = 0; k < newton_.equations().count(); ++k) {
-    const auto i = static_cast<std::size_t>(newton_.equations().direction(k));
-    state_.acceleration[i] = sum[i] / model_.node_masses[i / 3];
-  }
+  std::vector<double> masses;
+  for (const double m : model_.node_masses) masses.insert(masses.end(), 3, m);
+  state_.acceleration = newton_.accelerations({masses, std::move(sum)}, state_.displacement);
 }
 
 bool ImplicitSolver::take(const Step& step) {
@@ -163,6 +162,7 @@ void ImplicitSolver::account(const Step& step) {
     mean_[i] = 0.5 * (state_.velocity[i] + before_.velocity[i]);
     needed[i] += model_.node_masses[i / 3] * state_.acceleration[i] - state_.force[i];
   }
+  newton_.slides().carry_over(needed);
   for_each_support(model_, [&](const Support& support, std::size_t dof, std::size_t offset) {
     for (std::size_t c = 0; c < 3; ++c) {
       if (!support.fixed[c]) continue;

@@ -45,6 +45,9 @@ class ImplicitSolver final : public Integrator {
   std::span<const double> reactions() const override { return state_.reactions; }
   /// The balance at the present time; works by the trapezoidal rule over each step.
   EnergyBalance balance() override;
+  double slide_gap(std::size_t slide) const override {
+    return newton_.slides().gap(slide, state_.displacement);
+  }
   void save() override { saved_.take(state_, model_); }
   void archive(core::StateArchive& archive) override;
   const char* method() const override { return "fem_solver implicit"; }

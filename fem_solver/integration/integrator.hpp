@@ -30,6 +30,9 @@ class Integrator {
   /// From `time` to `time + length` (s), in as many steps as it takes.
   /// @throws core::NumericalError where the computation breaks down
   virtual void advance(double time, double length) = 0;
+  /// Computes what the next step needs and nobody can change any more, while others are still at work. A step
+  /// has the same bits with and without.
+  virtual void prepare() {}
 
   virtual std::span<const double> displacement() const = 0;  ///< m; at the present time, 3 a node
   virtual std::span<const double> velocity() const = 0;      ///< m/s; leapfrog: half a step before, 3 a node

@@ -74,6 +74,10 @@ bool LinearSolver::factorise(const SparseMatrix& matrix) {
          cholmod_rcond(factor_->factor, &factor_->common) > least_reciprocal_condition;
 }
 
+void LinearSolver::forget_pattern() {
+  cholmod_free_factor(&factor_->factor, &factor_->common);
+}
+
 double LinearSolver::factorise_shifted(SparseMatrix matrix) {
   if (factorise(matrix)) return 0;
   const double largest_entry = matrix.diagonal().cwiseAbs().maxCoeff();

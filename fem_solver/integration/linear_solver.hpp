@@ -8,7 +8,7 @@
 namespace talus::fem {
 
 /// Sparse Cholesky factorisation (CHOLMOD) of symmetric matrices that all have the same
-/// pattern.
+/// pattern, unless it is told otherwise.
 class LinearSolver {
  public:
   LinearSolver();
@@ -17,6 +17,8 @@ class LinearSolver {
   /// @param matrix lower half. @returns false where it is not positive definite, or so nearly singular that a
   /// solution would be noise
   bool factorise(const SparseMatrix& matrix);
+  /// The next matrix may have another pattern.
+  void forget_pattern();
   /// Factorises matrix + shift I with the smallest shift, in powers of ten from 1e-8 of the largest diagonal
   /// entry, that makes it positive definite. @returns the shift; 0: none was needed
   double factorise_shifted(SparseMatrix matrix);

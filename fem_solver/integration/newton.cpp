@@ -14,23 +14,53 @@ constexpr int most_cuts = 40;
 Newton::Newton(const Model& model)
     : equations_(model),
       stiffness_(model, equations_),
+      slides_(model, equations_),
       residual_(model.reference.size()),
       trial_(model.reference.size()) {}
 
 NewtonReport Newton::solve(const NewtonSystem& system, const NewtonOptions& options,
                            std::vector<double>& displacement) {
   NewtonReport report;
-  system.residual(displacement, residual_);
+  slides_.start(displacement);
+  evaluate(system, displacement);
   for (int iteration = 0; !measure(system, options, displacement, report); ++iteration) {
     if (iteration == options.most_iterations || !std::isfinite(report.residuals.back())) return report;
-    const double shift = solver_.factorise_shifted(
-        stiffness_.assemble(displacement, system.stiffness_factor, system.diagonal));
+    if (slides_.exists()) solver_.forget_pattern();
+    const double shift = solver_.factorise_shifted(tangent(system, displacement));
     const Eigen::VectorXd step = solver_.solve(equations_.gather(residual_));
     if (shift > 0) ++report.shifted;
     if (search_along(system, step, displacement)) ++report.cut;
   }
   report.converged = true;
   return report;
+}
+
+std::vector<double> Newton::accelerations(Push push, std::vector<double>& displacement) {
+  std::vector<double> found(push.force.size(), 0.0);
+  if (!slides_.exists()) {
+    for (Index k = 0; k < equations_.count(); ++k) {
+      const auto i = static_cast<std::size_t>(equations_.direction(k));
+      found[i] = push.force[i] / push.masses[i];
+    }
+    return found;
+  }
+  slides_.start(displacement);
+  slides_.settle(displacement, push.force);
+  solver_.forget_pattern();
+  solver_.factorise(slides_.condense(stiffness_.assemble(displacement, 0, push.masses)));
+  equations_.scatter_add(1, solver_.solve(equations_.gather(push.force)), found);
+  slides_.lead(found);
+  return found;
+}
+
+void Newton::evaluate(const NewtonSystem& system, const std::vector<double>& displacement) {
+  system.residual(displacement, residual_);
+  slides_.settle(displacement, residual_);
+}
+
+SparseMatrix Newton::tangent(const NewtonSystem& system, std::span<const double> displacement) {
+  const SparseMatrix& free = stiffness_.assemble(displacement, system.stiffness_factor, system.diagonal);
+  return slides_.exists() ? slides_.condense_with_curvature(free) : free;
 }
 
 /// Notes the largest residual. @returns whether it is small enough
@@ -53,11 +83,14 @@ bool Newton::measure(const NewtonSystem& system, const NewtonOptions& options, c
 bool Newton::search_along(const NewtonSystem& system, const Eigen::VectorXd& step,
                           std::vector<double>& displacement) {
   const double slope_at_start = equations_.gather(residual_).dot(step);
+  const auto places = slides_.places();
   double share = 1;
   for (int cut = 0;; ++cut) {
     trial_ = displacement;
     equations_.scatter_add(share, step, trial_);
-    system.residual(trial_, residual_);
+    slides_.return_to(places);
+    slides_.follow(trial_);
+    evaluate(system, trial_);
     const double slope = equations_.gather(residual_).dot(step);
     if ((std::isfinite(slope) && slope >= -steepest_uphill * slope_at_start) || cut == most_cuts) {
       std::swap(displacement, trial_);

@@ -7,6 +7,7 @@
 
 #include "fem_solver/assembly/sparse_stiffness.hpp"
 #include "fem_solver/integration/linear_solver.hpp"
+#include "fem_solver/integration/slide_elimination.hpp"
 
 namespace talus::fem {
 
@@ -36,7 +37,7 @@ struct NewtonReport {
 /// Newton's method with a line search. Where the tangent is not positive definite (slack nets, snapping bars)
 /// it is shifted until it is, so that every step goes downhill in energy; the report counts them. The line
 /// search asks for no more than that the slope along the step has not turned steeply uphill, |g(s)| < 0.8
-/// |g(0)|, and so needs no differences of energies.
+/// |g(0)|, and so needs no differences of energies. Sliders held by constraints stay on their ropes throughout.
 class Newton {
  public:
   explicit Newton(const Model& model);
@@ -45,10 +46,20 @@ class Newton {
   NewtonReport solve(const NewtonSystem& system, const NewtonOptions& options,
                      std::vector<double>& displacement);
 
+  /// What masses do under forces, with sliders on their ropes: m/s^2, 3 a node, 0 where supported.
+  struct Push {
+    std::span<const double> masses;  ///< kg, 3 a node
+    std::vector<double> force;       ///< N, 3 a node
+  };
+  std::vector<double> accelerations(Push push, std::vector<double>& displacement);
+
   const Equations& equations() const { return equations_; }
-  SparseStiffness& stiffness() { return stiffness_; }
+  const SlideElimination& slides() const { return slides_; }
+  /// -(derivative of the residual) at the state solve() has left, lower half.
+  SparseMatrix tangent(const NewtonSystem& system, std::span<const double> displacement);
 
  private:
+  void evaluate(const NewtonSystem& system, const std::vector<double>& displacement);
   bool measure(const NewtonSystem& system, const NewtonOptions& options,
                const std::vector<double>& displacement, NewtonReport& report);
   bool search_along(const NewtonSystem& system, const Eigen::VectorXd& step,
@@ -56,6 +67,7 @@ class Newton {
 
   Equations equations_;
   SparseStiffness stiffness_;
+  SlideElimination slides_;
   LinearSolver solver_;
   std::vector<double> residual_, trial_;
 };

@@ -61,13 +61,15 @@ bool StaticSolver::equilibrate(double time) {
   place_supports(model_, when, state_.displacement);
   std::ranges::fill(external_, 0.0);
   add_external_force(model_, interface_, when, external_);
-  const NewtonSystem system{
-      .residual = [&](std::span<const double> u, std::span<double> r) { residual(u, r); },
-      .force_scale = [&] { return force_scale_; },
-      .stiffness_factor = 1,
-      .diagonal = std::vector<double>(model_.reference.size(), 0.0)};
-  reports_.push_back(newton_.solve(system, options_.newton, state_.displacement));
+  reports_.push_back(newton_.solve(system(), options_.newton, state_.displacement));
   return reports_.back().converged;
+}
+
+NewtonSystem StaticSolver::system() {
+  return {.residual = [this](std::span<const double> u, std::span<double> r) { residual(u, r); },
+          .force_scale = [this] { return force_scale_; },
+          .stiffness_factor = 1,
+          .diagonal = std::vector<double>(model_.reference.size(), 0.0)};
 }
 
 void StaticSolver::residual(std::span<const double> displacement, std::span<double> residual) {
@@ -84,6 +86,7 @@ void StaticSolver::account(const State& before, const LoadSpan& span) {
   std::vector<double> sum(model_.reference.size()), change(model_.reference.size());
   residual(state_.displacement, sum);
   accept_memory(model_);
+  newton_.slides().carry_over(sum);
   std::ranges::transform(state_.displacement, before.displacement, change.begin(), std::minus<>{});
   for_each_support(model_, [&](const Support& support, std::size_t dof, std::size_t offset) {
     for (std::size_t c = 0; c < 3; ++c) {
@@ -110,8 +113,7 @@ EnergyBalance StaticSolver::balance() {
 }
 
 void StaticSolver::check_for_mechanisms(double time) {
-  const std::vector<double> none(model_.reference.size(), 0.0);
-  const SoftestMotion softest = softest_motion(newton_.stiffness().assemble(state_.displacement, 1, none));
+  const SoftestMotion softest = softest_motion(newton_.tangent(system(), state_.displacement));
   if (softest.kind == SoftestMotion::Kind::stiff) return;
   const std::string nodes = nodes_that_move(softest.motion);
   if (softest.kind == SoftestMotion::Kind::unstable) {

@@ -33,6 +33,9 @@ class StaticSolver final : public Integrator {
   std::span<const double> velocity() const override { return velocity_; }
   std::span<const double> reactions() const override { return state_.reactions; }
   EnergyBalance balance() override;
+  double slide_gap(std::size_t slide) const override {
+    return newton_.slides().gap(slide, state_.displacement);
+  }
   void save() override { saved_.take(state_, model_); }
   void archive(core::StateArchive& archive) override;
   const char* method() const override { return "fem_solver static"; }
@@ -48,6 +51,7 @@ class StaticSolver final : public Integrator {
     bool operator==(const State&) const = default;
   };
   bool equilibrate(double time);
+  NewtonSystem system();
   void residual(std::span<const double> displacement, std::span<double> residual);
   void account(const State& before, const LoadSpan& span);
   void check_for_mechanisms(double time);

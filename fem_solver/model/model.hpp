@@ -72,7 +72,7 @@ struct Damping {
   double stiffness = 0;  ///< s
 };
 
-/// Nodes held on a rope of other elements by multi-point constraints; explicit runs only.
+/// Nodes held on a rope of other elements by multi-point constraints.
 struct ConstrainedSlide {
   std::string name;
   SlideLine line;

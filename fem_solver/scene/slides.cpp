@@ -78,7 +78,7 @@ void describe(core::Fields& fields, SlideScene& slide) {
   fields.required("rope", slide.rope, {.help = "the part of two-node elements they run along"});
   fields.required("nodes", slide.nodes, {.help = "the node set that runs: net.edge_south"});
   fields.one_of(slide.method, {{"penalty", "springs hold the nodes on the rope, with a gap"},
-                               {"constraint", "constraints hold them, without; explicit runs only"}});
+                               {"constraint", "constraints hold them, without"}});
 }
 
 void add_slide(const NamedSlide& slide, Model& model) {

@@ -76,8 +76,9 @@ void describe(core::Fields& fields, StructureScene& structure) {
   const bool constrained = std::ranges::any_of(structure.slides, [](const NamedSlide& slide) {
     return std::holds_alternative<ConstraintSlideScene>(slide.second.method);
   });
-  fields.rule(!constrained || is_explicit(structure.method), "slides",
-              "hold by constraints in explicit runs only; take `penalty`, or a `sliding_cable` for the rope");
+  const auto* implicit = std::get_if<ImplicitScene>(&structure.method);
+  fields.rule(!constrained || !implicit || implicit->spectral_radius < 1, "implicit.spectral_radius",
+              "has to be below 1 where `slides` hold by constraints: at 1 their forces ring without end");
   fields.section("mass_scaling", structure.mass_scaling,
                  "mass on light nodes, for a longer explicit step at the price of slower waves");
   fields.rule(!structure.mass_scaling || is_explicit(structure.method), "mass_scaling",

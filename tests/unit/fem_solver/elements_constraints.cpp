@@ -151,6 +151,29 @@ TEST_CASE("the weights of a slide constraint are the derivative of [P eq. 11]") 
   }
 }
 
+TEST_CASE("the curvature of a slide constraint is the derivative of what its weights carry over") {
+  Dice dice(59);
+  for (int trial = 0; trial < 50; ++trial) {
+    const Vector9 x = random_slide(dice, 0);
+    const std::array<double, 2> pulls{dice.uniform(-10, 10), dice.uniform(-10, 10)};
+    const auto at = [](const Eigen::VectorXd& y) {
+      return SlideConstraint({y.segment<3>(0), y.segment<3>(3), y.segment<3>(6)});
+    };
+    const auto carried = [&](const Eigen::VectorXd& y) {
+      Eigen::VectorXd force = Eigen::VectorXd::Zero(9);
+      const SlideConstraint slide = at(y);
+      for (std::size_t i = 0; i < 2; ++i) {
+        const auto [b, weights, constant] = slide.row(i);
+        const int masters[5] = {b, 3 + b, 6 + slide.pivot, slide.pivot, 3 + slide.pivot};
+        for (std::size_t k = 0; k < 5; ++k) force[masters[k]] += weights[k] * pulls[i];
+      }
+      return force;
+    };
+    const Eigen::MatrixXd expected = central_differences(carried, x, 1e-6);
+    CHECK((at(x).curvature(pulls) - expected).norm() < 1e-6 * (1 + expected.norm()));
+  }
+}
+
 TEST_CASE(
     "the weights of a slide constraint carry force and moment over exactly, those of the printed eq. 13 do "
     "not") {

@@ -1,0 +1,218 @@
+#include "fem_solver/integration/slide_elimination.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/errors.hpp"
+#include "fem_solver/constraints/nearest_segment.hpp"
+#include "fem_solver/integration/external_force.hpp"
+
+namespace talus::fem {
+namespace {
+
+std::size_t direction_of(Index node, int axis) {
+  return 3 * static_cast<std::size_t>(node) + static_cast<std::size_t>(axis);
+}
+
+std::string name_of(const ConstrainedSlide& slide, const Model& model, Index node) {
+  return fmt::format("structure.slides.{}: {}", slide.name, node_name(model, node));
+}
+
+SparseMatrix sparse(Index size, const std::vector<Eigen::Triplet<double>>& entries) {
+  SparseMatrix matrix(size, size);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  return matrix;
+}
+
+/// Every node may follow one rope, and no rope may follow another.
+void check_nodes(const Model& model) {
+  enum class Use { none, rope, slider };
+  std::vector<Use> uses(static_cast<std::size_t>(model.nodes()), Use::none);
+  for (const auto& slide : model.constrained_slides)
+    for (const Index node : slide.line.rope) uses[static_cast<std::size_t>(node)] = Use::rope;
+  for (const auto& slide : model.constrained_slides)
+    for (const Index node : slide.line.sliders)
+      if (std::exchange(uses[static_cast<std::size_t>(node)], Use::slider) != Use::none)
+        throw core::ConfigError(
+            name_of(slide, model, node) +
+            " takes part in another slide too, which implicit and static runs do not solve; take `penalty`");
+  for_each_support(model, [&](const Support& support, std::size_t direction, std::size_t) {
+    const auto node = static_cast<Index>(direction / 3);
+    if (uses[direction / 3] != Use::slider || !(support.fixed[0] || support.fixed[1] || support.fixed[2]))
+      return;
+    for (const auto& slide : model.constrained_slides)
+      if (std::ranges::find(slide.line.sliders, node) != slide.line.sliders.end())
+        throw core::ConfigError(
+            name_of(slide, model, node) +
+            " is supported, so it cannot follow a rope in implicit and static runs; take `penalty`");
+  });
+}
+
+}  // namespace
+
+SlideElimination::SlideElimination(const Model& model, const Equations& equations)
+    : model_(model), equations_(equations) {
+  check_nodes(model);
+  for (const auto& slide : model.constrained_slides)
+    for (const Index node : slide.line.sliders) sliders_.push_back({&slide.line, node});
+}
+
+Vector3 SlideElimination::position(std::span<const double> displacement, Index node) const {
+  return model_.position(node) + Vector3::Map(&displacement[direction_of(node, 0)]);
+}
+
+void SlideElimination::put(const Slider& slider, const Vector3& place, std::span<double> displacement) const {
+  Vector3::Map(&displacement[direction_of(slider.node, 0)]) = place - model_.position(slider.node);
+}
+
+SlideConstraint SlideElimination::constraint(std::span<const double> displacement,
+                                             const Slider& slider) const {
+  const Index* rope = &slider.line->rope[slider.segment];
+  return SlideConstraint({position(displacement, rope[0]), position(displacement, rope[1]),
+                          position(displacement, slider.node)});
+}
+
+void SlideElimination::start(std::span<double> displacement) {
+  for (Slider& slider : sliders_) {
+    const auto node = [&](std::size_t k) { return position(displacement, slider.line->rope[k]); };
+    slider.segment =
+        nearest_segment(slider.line->rope.size() - 1, node, position(displacement, slider.node)).segment;
+    slider.held = false;
+  }
+  follow(displacement);
+}
+
+void SlideElimination::follow(std::span<double> displacement) {
+  for (Slider& slider : sliders_) {
+    if (!slider.held) {
+      const double fraction = constraint(displacement, slider).fraction;
+      slider.corner.reset();
+      if (fraction <= 0) slider.corner = slider.segment;
+      if (fraction >= 1) slider.corner = slider.segment + 1;
+    }
+    if (slider.corner) {
+      put(slider, position(displacement, slider.line->rope[*slider.corner]), displacement);
+      continue;
+    }
+    const SlideConstraint here = constraint(displacement, slider);
+    for (std::size_t i = 0; i < 2; ++i)
+      displacement[direction_of(slider.node, here.slaves[i])] -= here.offsets[i];
+  }
+}
+
+void SlideElimination::settle(std::span<const double> displacement, std::span<double> residual) {
+  followers_.clear();
+  curvature_.clear();
+  for (Slider& slider : sliders_) {
+    const Vector3 force = Vector3::Map(&residual[direction_of(slider.node, 0)]);
+    if (slider.corner) leave_corner(displacement, force, slider);
+    if (slider.held) {
+      add_followers_of_corner(slider);
+      continue;
+    }
+    const SlideConstraint here = constraint(displacement, slider);
+    slider.pulls = {force[here.slaves[0]], force[here.slaves[1]]};
+    add_followers(slider, here);
+    add_curvature(here, slider);
+  }
+  carry_over(residual);
+}
+
+/// To the neighbouring segment along which the force points away from the corner, if there is one.
+void SlideElimination::leave_corner(std::span<const double> displacement, const Vector3& force,
+                                    Slider& slider) const {
+  const std::size_t corner = *slider.corner, last = slider.line->rope.size() - 1;
+  const Vector3 here = position(displacement, slider.line->rope[corner]);
+  const auto force_towards = [&](std::size_t neighbour) {
+    return force.dot((position(displacement, slider.line->rope[neighbour]) - here).normalized());
+  };
+  const double onwards = corner < last ? force_towards(corner + 1) : 0;
+  const double back = corner > 0 ? force_towards(corner - 1) : 0;
+  slider.held = onwards <= 0 && back <= 0;
+  if (!slider.held) slider.segment = onwards >= back ? corner : corner - 1;
+}
+
+void SlideElimination::add_followers(const Slider& slider, const SlideConstraint& constraint) {
+  const Index A = slider.line->rope[slider.segment], B = slider.line->rope[slider.segment + 1];
+  for (std::size_t i = 0; i < 2; ++i) {
+    const auto [slave, weights, offset] = constraint.row(i);
+    followers_.push_back(
+        {direction_of(slider.node, slave),
+         {direction_of(A, slave), direction_of(B, slave), direction_of(slider.node, constraint.pivot),
+          direction_of(A, constraint.pivot), direction_of(B, constraint.pivot)},
+         weights,
+         5});
+  }
+}
+
+void SlideElimination::add_followers_of_corner(const Slider& slider) {
+  for (int axis = 0; axis < 3; ++axis)
+    followers_.push_back(
+        {direction_of(slider.node, axis), {direction_of(slider.line->rope[*slider.corner], axis)}, {1}, 1});
+}
+
+void SlideElimination::add_curvature(const SlideConstraint& constraint, const Slider& slider) {
+  const std::array<Index, 3> nodes{slider.line->rope[slider.segment], slider.line->rope[slider.segment + 1],
+                                   slider.node};
+  const SlideConstraint::Curvature curvature = constraint.curvature(slider.pulls);
+  const auto equation = [&](int i) {
+    return equations_.of(direction_of(nodes[static_cast<std::size_t>(i / 3)], i % 3));
+  };
+  for (int i = 0; i < 9; ++i)
+    for (int j = 0; j < 9; ++j)
+      if (curvature(i, j) != 0 && equation(j) >= 0 && equation(i) >= equation(j))
+        curvature_.emplace_back(equation(i), equation(j), -curvature(i, j));
+}
+
+void SlideElimination::carry_over(std::span<double> force) const {
+  for (const auto& [direction, masters, weights, count] : followers_) {
+    for (std::size_t k = 0; k < count; ++k) force[masters[k]] += weights[k] * force[direction];
+    force[direction] = 0;
+  }
+}
+
+void SlideElimination::lead(std::span<double> rates) const {
+  for (const auto& [direction, masters, weights, count] : followers_) {
+    rates[direction] = 0;
+    for (std::size_t k = 0; k < count; ++k) rates[direction] += weights[k] * rates[masters[k]];
+  }
+}
+
+SparseMatrix SlideElimination::condense(const SparseMatrix& matrix) const {
+  const Index size = equations_.count();
+  std::vector<bool> follows(static_cast<std::size_t>(size), false);
+  std::vector<Eigen::Triplet<double>> weights, ones;
+  for (const Follower& follower : followers_) {
+    const Index row = equations_.of(follower.direction);
+    follows[static_cast<std::size_t>(row)] = true;
+    ones.emplace_back(row, row, matrix.diagonal().cwiseAbs().maxCoeff());
+    for (std::size_t k = 0; k < follower.count; ++k)
+      if (const Index column = equations_.of(follower.masters[k]); column >= 0)
+        weights.emplace_back(row, column, follower.weights[k]);
+  }
+  for (Index k = 0; k < size; ++k)
+    if (!follows[static_cast<std::size_t>(k)]) weights.emplace_back(k, k, 1);
+  const SparseMatrix L = sparse(size, weights), whole = matrix.selfadjointView<Eigen::Lower>();
+  const SparseMatrix condensed = SparseMatrix(L.transpose() * whole) * L;
+  return SparseMatrix(condensed.triangularView<Eigen::Lower>()) + sparse(size, ones);
+}
+
+SparseMatrix SlideElimination::condense_with_curvature(const SparseMatrix& tangent) const {
+  return condense(tangent) + sparse(equations_.count(), curvature_);
+}
+
+double SlideElimination::gap(std::size_t slide, std::span<const double> displacement) const {
+  const SlideLine& line = model_.constrained_slides[slide].line;
+  const auto node = [&](std::size_t k) { return position(displacement, line.rope[k]); };
+  double largest = 0;
+  for (const Index slider : line.sliders)
+    largest = std::max(
+        largest,
+        nearest_segment(line.rope.size() - 1, node, position(displacement, slider)).squared_distance);
+  return std::sqrt(largest);
+}
+
+}  // namespace talus::fem
