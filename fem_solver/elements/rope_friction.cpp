@@ -12,7 +12,7 @@ constexpr int most_steps = 30;
 constexpr int most_sweeps = 1000;
 /// Of the tensions, relative to M dN/dM, which is of the order of E A: what round-off of the stretch makes of
 /// them.
-constexpr double closeness = 1e-14;
+constexpr double settled_share = 1e-14;
 /// A segment gives away at most this share of its material in one Newton step.
 constexpr double largest_share = 0.9;
 
@@ -80,7 +80,7 @@ bool RopeFriction::solve(const RopeLaw& law, const RopeState& state, std::span<d
     const double share = longest_step(material);
     for (std::size_t k = 0; k < slip_.size(); ++k) pass(k, share * right_[k], material);
     evaluate(law, state, material);
-    if (settled(state, closeness * stiffest(material))) return true;
+    if (settled(state, settled_share * stiffest(material))) return true;
   }
   return false;
 }

@@ -7,11 +7,6 @@
 #include "fem_solver/integration/external_force.hpp"
 
 namespace talus::fem {
-namespace {
-
-constexpr double smallest_share_of_step = 1.0 / 1024;
-
-}  // namespace
 
 ImplicitSolver::ImplicitSolver(const Model& model, Assembly& assembly, const ImplicitOptions& options)
     : model_(model), assembly_(assembly), options_(options), newton_(model) {

@@ -26,6 +26,9 @@ struct NewtonOptions {
   int most_iterations = 60;
 };
 
+/// Of the step asked for: how far one whose iteration fails is halved.
+inline constexpr double smallest_share_of_step = 1.0 / 1024;
+
 struct NewtonReport {
   bool converged = false;
   std::vector<double> residuals;  ///< largest, over force_scale; the first before any iteration

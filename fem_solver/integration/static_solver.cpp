@@ -12,7 +12,6 @@
 namespace talus::fem {
 namespace {
 
-constexpr double smallest_share_of_step = 1.0 / 1024;
 constexpr std::size_t most_nodes_named = 4;
 
 LoadTime load_time(double time, double end) {

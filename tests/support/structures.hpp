@@ -10,6 +10,11 @@
 /// Small structures that several tests are made of.
 namespace talus::tests {
 
+inline const fem::AxialPart steel{.section = {.area = 1e-4, .youngs_modulus = 2e11, .prestress = 0},
+                                  .density = 7850};
+inline const fem::AxialPart wire{.section = {.area = 1e-5, .youngs_modulus = 1e9, .prestress = 1e8},
+                                 .density = 7850};
+
 /// Puts a part of bars or cables over the nodes of `model` and lumps the masses anew.
 template <class Batch>
 void add_part(fem::Model& model, const std::string& name, const fem::AxialPart& part,
@@ -56,6 +61,13 @@ fem::Model net(const fem::AxialPart& part, double pitch, fem::Index n) {
 inline fem::Support fixed(std::vector<fem::Index> nodes,
                           std::array<bool, 3> directions = {true, true, true}) {
   return {.name = "support", .nodes = std::move(nodes), .fixed = directions, .history = {}};
+}
+
+/// One free node on a bar: a linear oscillator for small motion along the bar.
+inline fem::Model oscillator() {
+  fem::Model model = chain<fem::BarBatch>(steel, 1, 1);
+  model.supports = {fixed({0}), fixed({1}, {false, true, true})};
+  return model;
 }
 
 inline fem::NodalLoad load(fem::Index node, const fem::Vector3& force) {

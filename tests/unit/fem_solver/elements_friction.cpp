@@ -9,8 +9,8 @@ using namespace talus::test;
 
 namespace {
 
-const AxialSection steel{1e-4, 1e11, 0};
-const double stiffness_scale = steel.area * steel.youngs_modulus;
+const AxialSection stiff_steel{1e-4, 1e11, 0};
+const double stiff_scale = stiff_steel.area * stiff_steel.youngs_modulus;
 
 /// A frictional rope with its history, stepped by hand.
 struct TestRope {
@@ -19,7 +19,7 @@ struct TestRope {
   double dissipated = 0;
 
   TestRope(double friction, const Eigen::VectorXd& x, double slack = 1, double gap = 1e-3)
-      : cable({RopeLaw(steel), friction, gap}, segment_lengths(x).size()),
+      : cable({RopeLaw(stiff_steel), friction, gap}, segment_lengths(x).size()),
         material(segment_lengths(x)),
         settled(material) {
     for (double& m : material) m *= slack;
@@ -71,7 +71,7 @@ void pull(TestRope& rope, Eigen::VectorXd& x, double distance, int steps) {
   const core::Vector3 out = chords_of(x)(chords_of(x).size() - 1).normalized();
   for (int k = 0; k < steps; ++k) {
     x.tail<3>() += out * (distance / steps);
-    CHECK(rope.commit(x) >= -1e-15 * stiffness_scale);
+    CHECK(rope.commit(x) >= -1e-15 * stiff_scale);
   }
 }
 
@@ -140,7 +140,7 @@ TEST_CASE("settled tensions obey the capstan limit at every node whatever the ro
     for (double& m : rope.material) m *= factor;
     const std::vector<double> before = rope.material;
     const double loss = rope.commit(x);
-    REQUIRE(loss >= -1e-13 * stiffness_scale);
+    REQUIRE(loss >= -1e-13 * stiff_scale);
     REQUIRE(std::abs(total(rope.material) - held) < 1e-13 * held);
     const std::vector<double> N = rope.tensions(x);
     const std::span<const double> slips = rope.cable.slips();
@@ -149,10 +149,10 @@ TEST_CASE("settled tensions obey the capstan limit at every node whatever the ro
       const StackedChords chords = chords_of(x);
       const double a = std::exp(mu * std::acos(chords(k).normalized().dot(chords(k + 1).normalized())));
       constexpr double round_off = 1e-12;  // of E A: tension is a difference of lengths
-      REQUIRE(N[k + 1] <= a * N[k] + round_off * stiffness_scale);
-      REQUIRE(N[k] <= a * N[k + 1] + round_off * stiffness_scale);
-      if (slips[k] > 0) REQUIRE(std::abs(N[k + 1] - a * N[k]) < round_off * stiffness_scale);
-      if (slips[k] < 0) REQUIRE(std::abs(N[k] - a * N[k + 1]) < round_off * stiffness_scale);
+      REQUIRE(N[k + 1] <= a * N[k] + round_off * stiff_scale);
+      REQUIRE(N[k] <= a * N[k + 1] + round_off * stiff_scale);
+      if (slips[k] > 0) REQUIRE(std::abs(N[k + 1] - a * N[k]) < round_off * stiff_scale);
+      if (slips[k] < 0) REQUIRE(std::abs(N[k] - a * N[k + 1]) < round_off * stiff_scale);
       passed += before[k] - rope.material[k];
       REQUIRE(std::abs(slips[k] - passed) < 1e-13 * held);
       slipping += slips[k] != 0;
@@ -185,8 +185,8 @@ TEST_CASE("friction that fades leaves the sliding cable") {
   for (double& m : rope.material) m *= dice.uniform(0.9, 1.1);
   const double factor = held / total(rope.material);
   for (double& m : rope.material) m *= factor;
-  const SlidingCable free{RopeLaw(steel), held, 1e-3};
-  CHECK((rope.force(x) - sliding_force(free, x)).norm() < 1e-12 * stiffness_scale);
+  const SlidingCable free{RopeLaw(stiff_steel), held, 1e-3};
+  CHECK((rope.force(x) - sliding_force(free, x)).norm() < 1e-12 * stiff_scale);
 }
 
 TEST_CASE("the stiffness of a frictional cable is the derivative of its settled force") {
@@ -199,7 +199,7 @@ TEST_CASE("the stiffness of a frictional cable is the derivative of its settled 
     const auto force = [&](const Eigen::VectorXd& y) { return rope.force(y); };
     const Eigen::MatrixXd difference = central_differences(force, x, 1e-6),
                           coarser = central_differences(force, x, 4e-6);
-    if ((difference - coarser).norm() > 1e-6 * stiffness_scale)
+    if ((difference - coarser).norm() > 1e-6 * stiff_scale)
       continue;  // a node changes between stick and slip here
     rope.force(x);
     std::size_t moving = 0;
@@ -207,7 +207,7 @@ TEST_CASE("the stiffness of a frictional cable is the derivative of its settled 
     mixed += moving > 0 && moving < rope.cable.slips().size();
     const Eigen::MatrixXd K = nodal_stiffness(
         x.size(), [&](const auto& sink) { rope.cable.stiffness(chords_of(x), rope.settled, sink); });
-    CHECK((difference - K).norm() < 1e-6 * stiffness_scale);
+    CHECK((difference - K).norm() < 1e-6 * stiff_scale);
   }
   CHECK(mixed > 30);
 }
@@ -222,10 +222,10 @@ TEST_CASE("a rope held at its nodes is stiffer than one that slips, along any mo
     const Eigen::VectorXd held = nodal_forces(x.size(), [&](const auto& sink) {
       rope.cable.held_stiffness_product(chords_of(x), chords_of(w), rope.material, sink);
     });
-    const SlidingCable free{RopeLaw(steel), total(rope.material), 1e-3};
+    const SlidingCable free{RopeLaw(stiff_steel), total(rope.material), 1e-3};
     const Eigen::VectorXd running = nodal_forces(
         x.size(), [&](const auto& sink) { free.stiffness_product(chords_of(x), chords_of(w), sink); });
-    CHECK(w.dot(held) >= w.dot(running) - 1e-12 * stiffness_scale);
+    CHECK(w.dot(held) >= w.dot(running) - 1e-12 * stiff_scale);
   }
 }
 
@@ -235,7 +235,7 @@ TEST_CASE("a slack rope takes up its slack before it pulls") {
   TestRope rope(0.4, x, 1.01);
   rope.material = {0.98, 1.02, 1.03};  // the first segment alone would be taut
   rope.commit(x);
-  for (const double N : rope.tensions(x)) CHECK(N <= 1e-12 * stiffness_scale);
+  for (const double N : rope.tensions(x)) CHECK(N <= 1e-12 * stiff_scale);
   CHECK(total(rope.material) == Approx(3.03).epsilon(1e-14));
   // least squares: both givers give the same
   CHECK(1.02 - rope.material[1] == Approx(1.03 - rope.material[2]).epsilon(1e-9));

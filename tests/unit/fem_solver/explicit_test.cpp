@@ -14,16 +14,6 @@ namespace {
 using namespace talus::fem;
 namespace tests = talus::tests;
 
-const AxialPart steel{.section = {.area = 1e-4, .youngs_modulus = 2e11, .prestress = 0}, .density = 7850};
-const AxialPart wire{.section = {.area = 1e-5, .youngs_modulus = 1e9, .prestress = 1e8}, .density = 7850};
-
-/// One free node on a bar: a linear oscillator for small motion along the bar.
-Model oscillator() {
-  Model model = tests::chain<BarBatch>(steel, 1, 1);
-  model.supports = {tests::fixed({0}), tests::fixed({1}, {false, true, true})};
-  return model;
-}
-
 /// A half wave of velocity across the net. (Kicking single nodes instead puts most of the energy into the
 /// shortest waves, where the trapezoidal work of a nonlinear force errs in proportion to (w dt)^2: there the
 /// total wanders by 1 %, at half the step by 0.1 %.)
@@ -63,7 +53,7 @@ struct Run {
 }  // namespace
 
 TEST_CASE("a free oscillator keeps the leapfrog's own energy to round-off") {
-  Run run(oscillator(), 0.9 * Run::limit(oscillator()));
+  Run run(tests::oscillator(), 0.9 * Run::limit(tests::oscillator()));
   run.solver.state().velocity[3] =
       1e-6;  // small enough that the bar is linear to 1e-9; rounding and that add up slowly
   const double start = total(run.solver.balance());
@@ -78,7 +68,7 @@ TEST_CASE(
     "leapfrog") {
   // Central differences: x_n = (F/k)(1 - cos(n phi)) with 2 sin(phi/2) = w dt, from x_0 = 0 and x_1 = x_-1.
   const double k = 2e11 * 1e-4, m = 7850 * 1e-4 / 2, w = std::sqrt(k / m), step = 0.3 / w, F = 1e-2;
-  Run run(oscillator(), step);
+  Run run(tests::oscillator(), step);
   run.model.loads = {tests::load(1, {F, 0, 0})};
   const double phi = 2 * std::asin(0.5 * w * step);
   for (int n = 1; n < 50; ++n) {
@@ -91,7 +81,7 @@ TEST_CASE(
     "an undamped elastic net at 0.9 of its limit keeps its energy within 0.1 % of the largest kinetic "
     "energy",
     "[long]") {
-  Model model = tests::net<CableBatch>(wire, 0.1, 9);
+  Model model = tests::net<CableBatch>(tests::wire, 0.1, 9);
   const double limit = Run::limit(model);
   Run run(std::move(model), 0.9 * limit);
   push_as_by_a_wide_impact(run.model, run.solver.state(), 3);
@@ -107,7 +97,7 @@ TEST_CASE(
 }
 
 TEST_CASE("damping, loads, gravity and moving supports close the energy balance") {
-  Model model = tests::net<CableBatch>(wire, 0.1, 7);
+  Model model = tests::net<CableBatch>(tests::wire, 0.1, 7);
   model.damping = {.mass = 40, .stiffness = 2e-6};
   model.gravity = Vector3(0, 1, -9.81);
   model.loads = {tests::load(24, {5, 0, -20})};
@@ -129,7 +119,7 @@ TEST_CASE("damping, loads, gravity and moving supports close the energy balance"
 }
 
 TEST_CASE("a supported node follows its prescribed motion and its neighbours feel it") {
-  Model model = tests::chain<BarBatch>(steel, 1, 4);
+  Model model = tests::chain<BarBatch>(tests::steel, 1, 4);
   model.supports = {tests::fixed({0})};
   model.supports[0].displacement = Vector3(1e-3, 0, 0);
   model.supports[0].history.points = {{0, 0}, {1e-3, 1}};
@@ -140,7 +130,7 @@ TEST_CASE("a supported node follows its prescribed motion and its neighbours fee
 }
 
 TEST_CASE("a reaction at rest is the weight it carries") {
-  Model model = tests::chain<BarBatch>(steel, 1, 4);
+  Model model = tests::chain<BarBatch>(tests::steel, 1, 4);
   model.supports = {tests::fixed({0})};
   model.gravity = Vector3(-9.81, 0, 0);
   model.damping.mass = 5000;
@@ -151,7 +141,7 @@ TEST_CASE("a reaction at rest is the weight it carries") {
 
 TEST_CASE("one, two and four threads give the same bits") {
   const auto run_with = [](int threads) {
-    Model model = tests::net<CableBatch>(wire, 0.1, 30);
+    Model model = tests::net<CableBatch>(tests::wire, 0.1, 30);
     model.damping = {.mass = 20, .stiffness = 1e-7};
     model.gravity = Vector3(0, 0, -9.81);
     talus::core::set_thread_count(threads);
@@ -167,7 +157,7 @@ TEST_CASE("one, two and four threads give the same bits") {
 }
 
 TEST_CASE("going back to a saved state repeats the run bit for bit") {
-  Run run(tests::net<CableBatch>(wire, 0.1, 9), 1e-4);
+  Run run(tests::net<CableBatch>(tests::wire, 0.1, 9), 1e-4);
   run.solver.state().velocity[3 * 40 + 2] = 3;
   run.steps(10);
   const ExplicitState saved = run.solver.state();
@@ -181,7 +171,7 @@ TEST_CASE("going back to a saved state repeats the run bit for bit") {
 
 TEST_CASE("a step that was prepared, in a state left and come back to, has the bits of one that was not") {
   const auto run_with = [](bool prepares) {
-    Model model = tests::net<CableBatch>(wire, 0.1, 9);
+    Model model = tests::net<CableBatch>(tests::wire, 0.1, 9);
     model.damping = {.mass = 20, .stiffness = 1e-7};
     model.gravity = Vector3(0, 0, -9.81);
     Run run(std::move(model), 1e-4);
@@ -207,7 +197,7 @@ TEST_CASE(
   constexpr Index middle = 40;
   constexpr double step = 1e-4, push = -25;  // s, N
   const auto run_after = [](int windows_of_rest) {
-    Run run(tests::net<CableBatch>(wire, 0.1, 9), step);
+    Run run(tests::net<CableBatch>(tests::wire, 0.1, 9), step);
     run.solver.interface() = InterfaceForce({middle});
     const auto window = [&] {
       run.solver.advance(step * static_cast<double>(run.solver.state().steps), step);
@@ -227,7 +217,7 @@ TEST_CASE(
 }
 
 TEST_CASE("a net whose forces do not cancel, whose load grows or whose rim moves does not rest") {
-  Run run(tests::net<CableBatch>(wire, 0.1, 9), 1e-4);
+  Run run(tests::net<CableBatch>(tests::wire, 0.1, 9), 1e-4);
   SECTION("weight") {
     run.model.gravity = Vector3(0, 0, -9.81);
   }
@@ -247,7 +237,7 @@ TEST_CASE("a net whose forces do not cancel, whose load grows or whose rim moves
 }
 
 TEST_CASE("a step above the limit ends with an error that names a node and the last good output") {
-  Run run(tests::net<CableBatch>(wire, 0.1, 9), 1e-2);
+  Run run(tests::net<CableBatch>(tests::wire, 0.1, 9), 1e-2);
   run.solver.state().velocity[3 * 40 + 2] = 3;
   run.solver.last_output_time = 0.125;
   try {

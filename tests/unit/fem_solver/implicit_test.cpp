@@ -12,15 +12,6 @@ namespace {
 using namespace talus::fem;
 namespace tests = talus::tests;
 
-const AxialPart steel{.section = {.area = 1e-4, .youngs_modulus = 2e11, .prestress = 0}, .density = 7850};
-const AxialPart wire{.section = {.area = 1e-5, .youngs_modulus = 1e9, .prestress = 1e8}, .density = 7850};
-
-Model oscillator() {
-  Model model = tests::chain<BarBatch>(steel, 1, 1);
-  model.supports = {tests::fixed({0}), tests::fixed({1}, {false, true, true})};
-  return model;
-}
-
 double total(const EnergyBalance& b) {
   double sum = b.kinetic + b.gravity + b.bulk_damping - b.loads - b.supports - b.interface;
   for (const double elastic : b.elastic) sum += elastic;
@@ -31,7 +22,7 @@ double total(const EnergyBalance& b) {
 
 TEST_CASE("the trapezoidal rule turns a linear oscillator by its own angle") {
   // Spectral radius 1: tan(phi/2) = w dt/2, amplitude kept, for any step.
-  const Model model = oscillator();
+  const Model model = tests::oscillator();
   const double w = std::sqrt(2e11 * 1e-4 / (7850 * 1e-4 / 2)), step = 3 / w, amplitude = 1e-7;
   Assembly assembly(model);
   ImplicitSolver solver(model, assembly,
@@ -45,7 +36,7 @@ TEST_CASE("the trapezoidal rule turns a linear oscillator by its own angle") {
 }
 
 TEST_CASE("a spectral radius of 0 removes what the step cannot resolve, within two steps") {
-  const Model model = oscillator();
+  const Model model = tests::oscillator();
   const double w = std::sqrt(2e11 * 1e-4 / (7850 * 1e-4 / 2)), step = 1e4 / w;
   Assembly assembly(model);
   ImplicitSolver solver(model, assembly,
@@ -57,7 +48,7 @@ TEST_CASE("a spectral radius of 0 removes what the step cannot resolve, within t
 
 TEST_CASE("halving the implicit step divides its error by four") {
   const auto middle_after = [](int steps) {
-    Model model = tests::net<CableBatch>(wire, 0.1, 5);
+    Model model = tests::net<CableBatch>(tests::wire, 0.1, 5);
     model.gravity = Vector3(0, 0, -9.81);
     model.damping = {.mass = 10, .stiffness = 1e-5};
     Assembly assembly(model);
@@ -72,7 +63,7 @@ TEST_CASE("halving the implicit step divides its error by four") {
 }
 
 TEST_CASE("Newton converges quadratically in an implicit step") {
-  Model model = tests::net<CableBatch>(wire, 0.1, 7);
+  Model model = tests::net<CableBatch>(tests::wire, 0.1, 7);
   model.loads = {tests::load(24, {10, 0, -500})};
   Assembly assembly(model);
   const double step = 1e-3;  // 200 times the explicit limit: the net's forces count for more than its inertia
@@ -84,7 +75,7 @@ TEST_CASE("Newton converges quadratically in an implicit step") {
 }
 
 TEST_CASE("implicit and explicit integration agree on a net that falls into its prestress") {
-  Model model = tests::net<CableBatch>(wire, 0.1, 7);
+  Model model = tests::net<CableBatch>(tests::wire, 0.1, 7);
   model.loads = {tests::load(24, {0, 0, -50})};
   model.damping.mass = 20;
   const double length = 0.01;
@@ -99,7 +90,7 @@ TEST_CASE("implicit and explicit integration agree on a net that falls into its 
 }
 
 TEST_CASE("an implicit run closes its energy balance with loads, gravity, damping and moving supports") {
-  Model model = tests::net<CableBatch>(wire, 0.1, 7);
+  Model model = tests::net<CableBatch>(tests::wire, 0.1, 7);
   model.damping = {.mass = 40, .stiffness = 2e-6};
   model.gravity = Vector3(0, 1, -9.81);
   model.loads = {tests::load(24, {5, 0, -20})};

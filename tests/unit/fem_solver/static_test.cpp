@@ -13,7 +13,8 @@ namespace {
 using namespace talus::fem;
 namespace tests = talus::tests;
 
-const AxialPart wire{.section = {.area = 1e-5, .youngs_modulus = 1e11, .prestress = 1e8}, .density = 7850};
+const AxialPart stiff_wire{.section = {.area = 1e-5, .youngs_modulus = 1e11, .prestress = 1e8},
+                           .density = 7850};
 
 struct Run {
   Run(Model built, const StaticOptions& options)
@@ -24,7 +25,7 @@ struct Run {
 };
 
 Model loaded_net() {
-  Model model = tests::net<CableBatch>(wire, 0.1, 9);
+  Model model = tests::net<CableBatch>(stiff_wire, 0.1, 9);
   model.loads = {tests::load(40, {20, 0, -300})};
   return model;
 }
@@ -63,7 +64,7 @@ TEST_CASE("the work of growing loads becomes elastic energy") {
 }
 
 TEST_CASE("a cable net without prestress finds its shape under load though its flat tangent is singular") {
-  AxialPart unstressed = wire;
+  AxialPart unstressed = stiff_wire;
   unstressed.section.prestress = 0;
   Model model = tests::net<CableBatch>(unstressed, 0.1, 5);
   model.gravity = Vector3(0, 0, -9.81);

@@ -4,17 +4,10 @@
 #include <cmath>
 #include <random>
 
+#include "tests/support/random_point.hpp"
+
 using namespace talus;
 using core::Vector3;
-
-namespace {
-
-Vector3 random_point(std::mt19937& random) {
-  std::uniform_real_distribution<double> in(-1, 1);
-  return {in(random), in(random), in(random)};
-}
-
-}  // namespace
 
 TEST_CASE("the closest point of a segment is its foot point or an end") {
   const std::array<Vector3, 2> ends{Vector3(1, 0, 0), Vector3(3, 0, 0)};
@@ -28,7 +21,8 @@ TEST_CASE("the closest point of a segment is its foot point or an end") {
 TEST_CASE("the closest point of a triangle has the exact weights 1 and 0 at its corners") {
   std::mt19937 random(5);
   for (int trial = 0; trial < 100; ++trial) {
-    const std::array corners{random_point(random), random_point(random), random_point(random)};
+    const std::array corners{tests::random_point(random), tests::random_point(random),
+                             tests::random_point(random)};
     for (std::size_t corner = 0; corner < 3; ++corner) {
       const auto closest = mesh::closest_on_triangle(corners[corner], corners);
       CHECK(closest.weights[corner] == 1);
@@ -42,8 +36,9 @@ TEST_CASE("the closest point of a triangle has the exact weights 1 and 0 at its 
 TEST_CASE("the closest point of a triangle satisfies the variational inequality against all corners") {
   std::mt19937 random(6);
   for (int trial = 0; trial < 20000; ++trial) {
-    const std::array corners{random_point(random), random_point(random), random_point(random)};
-    const Vector3 p = 2 * random_point(random);
+    const std::array corners{tests::random_point(random), tests::random_point(random),
+                             tests::random_point(random)};
+    const Vector3 p = 2 * tests::random_point(random);
     const auto closest = mesh::closest_on_triangle(p, corners);
     const auto& w = closest.weights;
     const Vector3 q = w[0] * corners[0] + w[1] * corners[1] + w[2] * corners[2];

@@ -7,6 +7,7 @@
 
 #include "interface_mesh/closest_point.hpp"
 #include "interface_mesh/points.hpp"
+#include "tests/support/random_point.hpp"
 
 using namespace talus;
 using core::Vector3;
@@ -14,20 +15,16 @@ using mesh::Index;
 
 namespace {
 
-Vector3 random_point(std::mt19937& random) {
-  std::uniform_real_distribution<double> in(-1, 1);
-  return {in(random), in(random), in(random)};
-}
-
 /// Triangles and segments of sizes over four decades, thrown anywhere, and a few nodes that belong to none.
 mesh::Surface random_features(std::mt19937& random) {
   std::uniform_real_distribution<double> decade(-4, 0);
   mesh::Surface surface;
   const auto add_nodes = [&](int count) {
     const Index first = surface.node_count();
-    const Vector3 middle = random_point(random);
+    const Vector3 middle = tests::random_point(random);
     const double size = std::pow(10, decade(random));
-    for (int i = 0; i < count; ++i) mesh::append(surface.positions, middle + size * random_point(random));
+    for (int i = 0; i < count; ++i)
+      mesh::append(surface.positions, middle + size * tests::random_point(random));
     return first;
   };
   for (int i = 0; i < 150; ++i) {
@@ -62,7 +59,7 @@ TEST_CASE("the nearest feature found by the tree is as near as that of a search 
     const auto surface = random_features(random);
     const auto tree = mesh::FeatureTree::of_features(surface);
     for (int query = 0; query < 400; ++query) {
-      const Vector3 at = (query % 2 ? 1.2 : 20.0) * random_point(random);
+      const Vector3 at = (query % 2 ? 1.2 : 20.0) * tests::random_point(random);
       const auto found = tree.nearest(at);
       REQUIRE(found.distance == Approx(brute_force_distance(surface, at)).epsilon(1e-13));
       Vector3 tied = Vector3::Zero();
@@ -78,7 +75,7 @@ TEST_CASE("the nearest node found by the tree is as near as that of a search thr
   const auto surface = random_features(random);
   const auto tree = mesh::FeatureTree::of_nodes(surface);
   for (int query = 0; query < 500; ++query) {
-    const Vector3 at = 1.5 * random_point(random);
+    const Vector3 at = 1.5 * tests::random_point(random);
     double nearest = std::numeric_limits<double>::infinity();
     for (Index node = 0; node < surface.node_count(); ++node)
       nearest = std::min(nearest, (mesh::point(surface.positions, node) - at).norm());

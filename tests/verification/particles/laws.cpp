@@ -8,8 +8,6 @@ using std::numbers::pi;
 
 namespace {
 
-constexpr double g = 9.81;
-
 /// A damped oscillator that is let go when its force would begin to pull, z < 1 (restitution.hpp; here in its
 /// own words): the force k x + c v is zero when tan(s t) = -2 z s/(1 - 2 z^2), s = sqrt(1 - z^2), at
 /// t = 2 arccos(z)/s, in units of sqrt(m/k).

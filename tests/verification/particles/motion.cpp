@@ -5,10 +5,6 @@
 using namespace talus::dem;
 using namespace talus::dem::cases;
 
-namespace {
-constexpr double g = 9.81;
-}
-
 TEST_CASE("Free fall follows the discrete parabola to round-off") {
   SphereCase c{.step = 1e-3};
   ParticleModel model = model_of(c, rigid());

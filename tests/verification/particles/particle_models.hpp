@@ -7,6 +7,8 @@
 /// Scenes of one or two spheres, as the closed forms speak of them.
 namespace talus::dem::cases {
 
+inline constexpr double g = 9.81;  // m/s^2
+
 inline double ball_mass(double radius, double density) {
   return density * 4.0 / 3.0 * std::numbers::pi * radius * radius * radius;
 }
