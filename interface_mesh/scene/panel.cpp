@@ -15,10 +15,10 @@ namespace {
 
 /// Corners of an outline may miss their common plane, and the directions of a rectangle a right angle, by
 /// this part of their size.
-constexpr double flatness = 1e-6;
+constexpr double exactness = 1e-6;
 
 bool are_perpendicular(const Vector3& a, const Vector3& b) {
-  return a.norm() > 0 && b.norm() > 0 && std::abs(a.dot(b)) <= flatness * a.norm() * b.norm();
+  return a.norm() > 0 && b.norm() > 0 && std::abs(a.dot(b)) <= exactness * a.norm() * b.norm();
 }
 
 double extent(const std::vector<Vector3>& corners) {
@@ -52,7 +52,7 @@ void check_outline(core::Fields& fields, const std::vector<Vector3>& corners) {
     return;
   }
   const double off_plane = flatness(corners);
-  const bool flat = off_plane <= flatness * extent(corners);
+  const bool flat = off_plane <= exactness * extent(corners);
   fields.rule(
       flat, "outline",
       fmt::format("must be flat, but its corners are up to {:g} m off their common plane", off_plane));

@@ -15,7 +15,7 @@ namespace {
 constexpr double off_outline = 1e-6;
 constexpr double most_triangles = 2e7;
 /// Cells may miss the size by this part of it: units such as 3 ft are not exact.
-constexpr double exactness = 1e-6;
+constexpr double wholeness = 1e-6;
 
 /// In the panel's plane; the third component is the height over it.
 core::Vector3 in_panel(const Panel& panel, const core::Vector3& place) {
@@ -44,7 +44,7 @@ std::optional<std::array<Index, 2>> count_cells(const SheetScene& sheet) {
   std::array<Index, 2> count{};
   for (std::size_t k : {0, 1}) {
     const double cells = (*sheet.panel.size)[k] / (*sheet.crossed_cell)[k];
-    if (std::abs(cells - std::round(cells)) > exactness * cells) return {};
+    if (std::abs(cells - std::round(cells)) > wholeness * cells) return {};
     count[k] = static_cast<Index>(std::lround(cells));
   }
   return count;
