@@ -6,14 +6,11 @@
 #include "core/errors.hpp"
 #include "dem_solver/scene/overlap_check.hpp"
 #include "dem_solver/scene/scene_rules.hpp"
+#include "dem_solver/scene/triple_of.hpp"
 
 namespace talus::dem {
 
 namespace {
-
-Triple<double> triple_of(const core::Vector3& v) {
-  return {v.x(), v.y(), v.z()};
-}
 
 Material material_of(const std::string& name, const MaterialScene& scene) {
   return {.name = name,

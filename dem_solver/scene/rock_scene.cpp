@@ -6,6 +6,7 @@
 #include "dem_solver/rocks/ball_union.hpp"
 #include "dem_solver/rocks/polyhedron.hpp"
 #include "dem_solver/rocks/sphere_filling.hpp"
+#include "dem_solver/scene/triple_of.hpp"
 
 namespace talus::dem {
 
@@ -86,10 +87,6 @@ Shape shape_of(const std::string& name, const BlockScene& block, double density)
 
 Shape shape_of(const std::string& name, const SurfaceScene& scene, double) {
   return filled(name, mesh::generate(scene.file).surface, scene.deviation);
-}
-
-Triple<double> triple_of(const core::Vector3& v) {
-  return {v.x(), v.y(), v.z()};
 }
 
 Eigen::Quaterniond rotation_of(const core::Vector3& turned) {
