@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/vector3.hpp"
-#include "dem_solver/particles/triple.hpp"
+#include "dem_solver/particles/row.hpp"
 
 namespace talus::dem {
 
