@@ -1,5 +1,6 @@
 """A scene run as a user runs it, and what its result says. For tests that are started with the arguments: the folder of the repository, the
 folder of the build."""
+import atexit
 import csv
 import functools
 import json
@@ -11,15 +12,17 @@ import tempfile
 import numpy as np
 
 ROOT, BUILD = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2])
+_WORK = tempfile.TemporaryDirectory()
+atexit.register(_WORK.cleanup)
 
 
 class Run:
     """`scene`, a path without its ending below configs/, with the YAML text `changes` over it, by `talus` or, where it has no particles,
-    `fem_solver`. The result is kept as long as the object is."""
+    `fem_solver`."""
 
     def __init__(self, scene: str, changes: str = "", *, program: str = "talus", options: tuple[str, ...] = ()):
-        self._folder = tempfile.TemporaryDirectory()
-        changed, self.result = pathlib.Path(self._folder.name, "scene.yaml"), pathlib.Path(self._folder.name, "result")
+        folder = pathlib.Path(tempfile.mkdtemp(dir=_WORK.name))
+        changed, self.result = folder / "scene.yaml", folder / "result"
         changed.write_text(f"extends: {ROOT}/configs/{scene}.yaml\n{changes}")
         command = [BUILD / "bin" / program, *(["run"] if program == "talus" else []), changed, "--out", self.result, "--quiet", *options]
         self.done = subprocess.run(command, capture_output=True, text=True)
