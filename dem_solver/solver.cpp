@@ -49,14 +49,18 @@ ParticleSolver& ParticleSolver::operator=(ParticleSolver&& other) noexcept = def
 ParticleSolver::~ParticleSolver() = default;
 
 void ParticleSolver::step() {
+  core::start(stage_clock_);
   kick_ = 0.5 * (last_step() + step_);
   boundary_.drift(time());
   find_neighbours();
+  core::lap(stage_clock_, search);
   clear_loads();
   evaluate_contacts();
+  core::lap(stage_clock_, with_boundary);
   move_spheres();
   if (!gates_.empty()) gates_.watch(spheres_, rocks_);
   previous_step_ = step_;
+  core::lap(stage_clock_, motion);
   ++steps_done_;
 }
 
@@ -137,7 +141,8 @@ ContactStage ParticleSolver::contact_stage() noexcept {
           .table = pairs_,
           .implicit_contact = implicit_contact_ ? &*implicit_contact_ : nullptr,
           .step = last_step(),
-          .threads = threads_};
+          .threads = threads_,
+          .clock = stage_clock_};
 }
 
 void ParticleSolver::evaluate_contacts() noexcept {

@@ -78,6 +78,8 @@ class ParticleSolver {
     double step = 0;  ///< s; of the steps to come
   };
   void set_clock(const Clock& clock) noexcept;
+  /// From here on steps add their time to the stages of this clock, StepStage. @pre it outlives the solver
+  void measure_stages(core::StageClock& clock) noexcept { stage_clock_ = &clock; }
 
   const Spheres& spheres() const noexcept { return spheres_; }
   const Rocks& rocks() const noexcept { return rocks_; }
@@ -142,6 +144,7 @@ class ParticleSolver {
   std::int64_t steps_done_ = 0;
   double clock_time_ = 0;
   std::int64_t clock_steps_ = 0;
+  core::StageClock* stage_clock_ = nullptr;  ///< of the stages; nullptr: nobody asks
   std::int64_t searches_ = 0;
   std::int64_t sweeps_ = 0, unconverged_steps_ = 0;
   ContactWork work_;

@@ -29,6 +29,8 @@ void describe(Fields& fields, ProbeScene& probe) {
               "contradicts `at` and `part`, which watch the structure");
 }
 
+void describe(Fields&, StageTimesScene&) {}
+
 void describe(Fields& fields, OutputScene& output) {
   fields.with_default("every", output.every,
                       {.unit = "s",
@@ -39,6 +41,9 @@ void describe(Fields& fields, OutputScene& output) {
                    .range = positive,
                    .help = "time between frames of fields.h5; no fields are written where absent"});
   fields.map("probes", output.probes, "points, parts and rocks whose history is written, by name");
+  fields.section("stage_times", output.stage_times,
+                 "columns of probes.csv with the seconds that each stage of the steps has taken so far; "
+                 "`talus explain` of the result then shows its share");
 }
 
 }  // namespace talus::core

@@ -28,11 +28,16 @@ struct ProbeScene {
 };
 void describe(Fields& fields, ProbeScene& probe);
 
+/// `output.stage_times: {}`: where the time of the steps goes, as columns of probes.csv.
+struct StageTimesScene {};
+void describe(Fields& fields, StageTimesScene& stage_times);
+
 /// `output:` what is written and how often.
 struct OutputScene {
   double every = 0;  ///< s between rows of probes.csv and energy.csv; 0: 200 rows over the run
   std::optional<double> fields_every;  ///< s between frames of fields.h5; absent: no field output
   std::vector<std::pair<std::string, ProbeScene>> probes;
+  std::optional<StageTimesScene> stage_times;
 };
 void describe(Fields& fields, OutputScene& output);
 

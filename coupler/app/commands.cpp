@@ -41,29 +41,13 @@ void add_run(CLI::App& app, Chosen& chosen) {
   });
 }
 
-namespace {
-
-/// A subcommand that only looks at a scene.
-void add_inspection(CLI::App& app, Chosen& chosen, const char* name, const char* help,
-                    core::ExitCode (*inspect)(const std::filesystem::path&)) {
-  auto* command = app.add_subcommand(name, help);
-  command->footer(fmt::format("Example:\n  talus {} configs/examples/cable_net.yaml", name));
+void add_check(CLI::App& app, Chosen& chosen) {
+  auto* command = app.add_subcommand(
+      "check", "print every step limit of a scene; exit code 2 where a stability limit is exceeded");
+  command->footer("Example:\n  talus check configs/examples/cable_net.yaml");
   const auto scene = std::make_shared<std::filesystem::path>();
   command->add_option("SCENE", *scene, "the scene, a YAML file")->required();
-  command->callback([scene, inspect, &chosen] { chosen.run = [scene, inspect] { return inspect(*scene); }; });
-}
-
-}  // namespace
-
-void add_check(CLI::App& app, Chosen& chosen) {
-  add_inspection(app, chosen, "check",
-                 "print every step limit of a scene; exit code 2 where a stability limit is exceeded",
-                 check_scene);
-}
-
-void add_explain(CLI::App& app, Chosen& chosen) {
-  add_inspection(app, chosen, "explain", "print which effects are in a scene, which are not, and why",
-                 explain_scene);
+  command->callback([scene, &chosen] { chosen.run = [scene] { return check_scene(*scene); }; });
 }
 
 void add_schema(CLI::App& app, Chosen& chosen) {

@@ -45,9 +45,7 @@ std::string file_name(const std::string& text) {
 class Planner {
  public:
   Planner(const StudyScene& study, const std::filesystem::path& folder)
-      : study_(study),
-        base_(std::filesystem::proximate(std::filesystem::absolute(study.base),
-                                         std::filesystem::absolute(folder) / "run")) {}
+      : study_(study), run_folder_(std::filesystem::absolute(folder) / "run") {}
 
   void add(const std::string& method, const std::vector<std::string>& values, bool shown) {
     const auto found = std::find_if(study_.methods.begin(), study_.methods.end(),
@@ -77,11 +75,17 @@ class Planner {
                      .position = core::parse_quantity(value, study_.sweep.unit).value_or(0),
                      .across = across,
                      .shown = shown,
-                     .scene = scene_text(settings, base_)});
+                     .scene = scene_text(settings, base_of(method.second))});
+  }
+
+  /// As a scene in the folder of a run names it.
+  std::filesystem::path base_of(const Method& method) const {
+    return std::filesystem::proximate(std::filesystem::absolute(method.base.value_or(study_.base)),
+                                      run_folder_);
   }
 
   const StudyScene& study_;
-  std::filesystem::path base_;
+  std::filesystem::path run_folder_;
   std::vector<PlannedRun> runs_;
 };
 

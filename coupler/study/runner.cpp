@@ -57,9 +57,15 @@ std::optional<Ended> run_once(const fs::path& folder, const RunnerOptions& optio
   return ended;
 }
 
+/// Nobody reads the time of a run that is only there for the reference.
+int repeats_of(const PlannedRun& run, const RunnerOptions& options) {
+  return run.shown ? options.repeats : 1;
+}
+
 bool is_complete(const json& point, const PlannedRun& run, const RunnerOptions& options) {
   return !point.is_null() && point.at("scene") == run.scene &&
-         point.at("repeats").get<int>() >= options.repeats && point.at("threads") == options.threads;
+         point.at("repeats").get<int>() >= repeats_of(run, options) &&
+         point.at("threads") == options.threads;
 }
 
 }  // namespace
@@ -84,11 +90,12 @@ bool run_point(const PlannedRun& run, const RunnerOptions& options) {
   fs::remove_all(part);
   fs::create_directories(part);
   core::replace_file(part / "scene.yaml", run.scene);
+  const int repeats = repeats_of(run, options);
   json record{
-      {"scene", run.scene},          {"repeats", options.repeats},    {"threads", options.threads},
+      {"scene", run.scene},          {"repeats", repeats},            {"threads", options.threads},
       {"machine", machine_record()}, {"loop_seconds", json::array()}, {"process_seconds", json::array()}};
   Ended ended;
-  for (int i = 0; i < options.repeats && ended.outcome == Outcome::ok; ++i) {
+  for (int i = 0; i < repeats && ended.outcome == Outcome::ok; ++i) {
     const auto once = run_once(part, options, record);
     if (!once) {
       fs::remove_all(part);

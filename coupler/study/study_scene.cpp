@@ -17,6 +17,7 @@ void describe(core::Fields& fields, Setting& setting) {
 }
 
 void describe(core::Fields& fields, Method& method) {
+  fields.optional("base", method.base, {.help = "the scene of this method; that of the study where absent"});
   fields.list("set", method.set, "what differs from the base scene");
 }
 

@@ -20,8 +20,9 @@ struct Setting {
 };
 void describe(core::Fields& fields, Setting& setting);
 
-/// One curve of the plots: the base scene with these settings, at each value of the sweep.
+/// One curve of the plots: a scene with these settings, at each value of the sweep.
 struct Method {
+  std::optional<std::filesystem::path> base;  ///< absent: that of the study
   std::vector<Setting> set;
 };
 void describe(core::Fields& fields, Method& method);

@@ -27,6 +27,13 @@ ParticleModel model_of(const RunScene& scene, const mesh::Surface& surface) {
       {.step = own_step(scene).value_or(0), .ledger = scene.output.has_value(), .threads = threads});
 }
 
+std::unique_ptr<core::StageClock> clock_of(const RunScene& scene) {
+  if (!scene.output || !scene.output->stage_times) return nullptr;
+  return std::make_unique<core::StageClock>(
+      "particles", std::vector<std::string>{"search_for_neighbours", "contacts_between_spheres",
+                                            "contacts_with_planes", "contacts_with_the_boundary", "motion"});
+}
+
 NamedBodies named_bodies(const ParticlesScene& particles) {
   NamedBodies named;
   for (const auto& [name, sphere] : particles.spheres)
@@ -45,8 +52,11 @@ ParticleRun::ParticleRun(const RunScene& scene, const mesh::Surface& surface,
 ParticleRun::ParticleRun(const RunScene& scene, const ParticleModel& model,
                          std::span<const double> node_masses)
     : solver(model),
-      output(solver, named_bodies(scene.particles), model.rock_surfaces),
-      limits(step_limits(model, {.materials = materials_of(scene.particles), .node_masses = node_masses})) {}
+      clock(clock_of(scene)),
+      output(solver, named_bodies(scene.particles), model.rock_surfaces, clock.get()),
+      limits(step_limits(model, {.materials = materials_of(scene.particles), .node_masses = node_masses})) {
+  if (clock) solver.measure_stages(*clock);
+}
 
 std::string schema() {
   return core::schema_markdown("particles", "The particle side: spheres, what they meet, and how.",

@@ -25,6 +25,7 @@ RunScene read_run_scene(const core::SceneFile& file);
 /// Solver and output of one run, standalone or coupled.
 struct ParticleRun {
   ParticleSolver solver;
+  std::unique_ptr<core::StageClock> clock;  ///< nullptr: the scene does not ask for stage times
   ParticleOutput output;
   std::vector<ParticleStepLimit> limits;
 

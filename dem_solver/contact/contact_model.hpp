@@ -1,10 +1,14 @@
 #pragma once
 
+#include "core/program/stage_clock.hpp"
 #include "dem_solver/contact/boundary_contacts.hpp"
 #include "dem_solver/contact/pair_contacts.hpp"
 #include "dem_solver/contact/plane_contacts.hpp"
 
 namespace talus::dem {
+
+/// Stages of a step whose time is told apart where the scene asks for it.
+enum StepStage : std::size_t { search, between_spheres, with_planes, with_boundary, motion };
 
 /// What contacts work on, and the lists of who may touch whom.
 struct ContactStage {
@@ -20,6 +24,7 @@ struct ContactStage {
   const ImplicitContact* implicit_contact = nullptr;  ///< of the boundary; nullptr: explicit
   double step = 0;                                    ///< s; since the last evaluation
   int threads = 1;
+  core::StageClock* clock = nullptr;  ///< nullptr: nobody asks for times
 };
 
 /// Where the memory of contacts goes when the lists are rebuilt.

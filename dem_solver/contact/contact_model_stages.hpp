@@ -15,7 +15,9 @@ void ContactModel<Law>::rebuild(const ContactStage& stage, const ContactMoves& m
 template <class Law>
 int ContactModel<Law>::evaluate(const ContactStage& s) noexcept {
   pairs_.evaluate({s.spheres, s.pair_list, s.table, s.step, s.threads});
+  core::lap(s.clock, between_spheres);
   if (!s.planes.empty()) planes_.evaluate({s.spheres, s.planes, s.plane_list, s.table, s.step, s.threads});
+  core::lap(s.clock, with_planes);
   if (s.boundary.empty()) return 0;
   const typename BoundaryContacts<Law>::Context context{s.spheres, s.boundary, s.boundary_list,
                                                         s.table,   s.step,     s.threads};

@@ -1,5 +1,6 @@
 #include "dem_solver/output/particle_output.hpp"
 
+#include <algorithm>
 #include <numeric>
 
 namespace talus::dem {
@@ -8,9 +9,10 @@ using core::FieldLocation;
 using core::LedgerKind;
 
 ParticleOutput::ParticleOutput(const ParticleSolver& solver, NamedBodies named,
-                               std::vector<mesh::Surface> rock_surfaces)
-    : solver_(solver), named_(std::move(named)), rock_surfaces_(std::move(rock_surfaces)) {
+                               std::vector<mesh::Surface> rock_surfaces, const core::StageClock* clock)
+    : solver_(solver), named_(std::move(named)), rock_surfaces_(std::move(rock_surfaces)), clock_(clock) {
   describe_probes();
+  if (clock_) clock_->describe(description_.probes);
   if (solver_.law().ledger) describe_ledger();
   describe_particles();
   describe_rocks();
@@ -123,6 +125,7 @@ void ParticleOutput::fill_probes(std::span<double> values) const {
     for (double value : {static_cast<double>(passed.stones), passed.mass, passed.kinetic_energy,
                          passed.smallest_radius, passed.largest_radius})
       *next++ = value;
+  if (clock_) std::ranges::copy(clock_->seconds(), next);
 }
 
 void ParticleOutput::fill_ledger(std::span<double> joules) const {

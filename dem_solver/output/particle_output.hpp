@@ -18,9 +18,11 @@ struct NamedBodies {
 /// all particles, of the rocks' surfaces and of the boundary.
 class ParticleOutput : public core::OutputSource {
  public:
-  /// @param rock_surfaces one a rock, in its principal axes; empty ones are not drawn. @pre the solver
-  /// outlives this
-  ParticleOutput(const ParticleSolver& solver, NamedBodies named, std::vector<mesh::Surface> rock_surfaces);
+  /// @param rock_surfaces one a rock, in its principal axes; empty ones are not drawn
+  /// @param clock of the stages' times; nullptr: they are not written
+  /// @pre solver and clock outlive this
+  ParticleOutput(const ParticleSolver& solver, NamedBodies named, std::vector<mesh::Surface> rock_surfaces,
+                 const core::StageClock* clock = nullptr);
 
   const core::OutputDescription& description() const override { return description_; }
   void fill_probes(std::span<double> values) const override;
@@ -40,6 +42,7 @@ class ParticleOutput : public core::OutputSource {
   const ParticleSolver& solver_;
   NamedBodies named_;
   std::vector<mesh::Surface> rock_surfaces_;
+  const core::StageClock* clock_;
   core::OutputDescription description_;
   std::vector<Group> groups_;
 };

@@ -99,10 +99,8 @@ coupler::Declaration declaration(Structure& structure, const StructuralScene& sc
       .limits = {},
       .effects = {},
       .outputs = structure.output().description()};
-  if (!structure.bounds().empty()) {
-    const StepBound& bound = structure.bounds().front();
+  for (const StepBound& bound : structure.bounds())
     declared.limits.push_back({bound.name, bound.seconds, true, bound.reason});
-  }
   for (const auto& effect : structure.effects(scene.structure))
     declared.effects.push_back({effect.name, effect.present, effect.reason});
   return declared;

@@ -32,10 +32,7 @@ std::string description(const AddedMass& added) {
 
 std::vector<StepBound> bounds_of(const StructureScene& scene, Assembly& assembly) {
   if (!is_explicit(scene.method)) return {};
-  auto bounds = step_bounds(assembly, std::vector<double>(assembly.model().reference.size(), 0.0));
-  if (scene.mass_scaling)
-    bounds.resize(std::min<std::size_t>(bounds.size(), 1));  // waves do not know of added mass
-  return bounds;
+  return step_bounds(assembly, std::vector<double>(assembly.model().reference.size(), 0.0));
 }
 
 double chosen_step(const StructuralScene& scene, const std::vector<StepBound>& bounds) {
@@ -46,6 +43,20 @@ double chosen_step(const StructuralScene& scene, const std::vector<StepBound>& b
   if (bounds.empty())
     throw core::ConfigError("structure: an implicit run needs `structure.step` or `time.step`");
   return default_share_of_limit * bounds.front().seconds;
+}
+
+/// A part's elements, and what they know beyond elasticity.
+void add_effects_of_part(std::vector<StructuralEffect>& effects, const std::string& part,
+                         const ElementScene& element) {
+  const auto add = [&](const char* effect, const char* key, bool present) {
+    effects.push_back({fmt::format("{} of {}", effect, part), present,
+                       fmt::format("structure.parts.{}{} is {}", part, key, present ? "given" : "not given")});
+  };
+  add("elements", "", true);
+  if (const auto* sheet = std::get_if<MembraneScene>(&element))
+    add("tension field", ".membrane.tension_field", sheet->tension_field.has_value());
+  if (const auto* rope = std::get_if<SlidingCableScene>(&element))
+    add("friction", ".sliding_cable.friction", rope->friction.has_value());
 }
 
 /// The integrator that a method of the scene means.
@@ -109,6 +120,9 @@ Structure::Structure(const StructuralScene& scene)
   integrator_ =
       std::visit(MakeIntegrator{model_, assembly_, {step_, scene.time.end, is_watched(scene.structure)}},
                  scene.structure.method);
+  if (!scene.output.stage_times) return;
+  clock_ = std::make_unique<core::StageClock>("structure", stages_of(model_));
+  assembly_.measure_stages(*clock_);
 }
 
 std::vector<StructuralEffect> Structure::effects(const StructureScene& scene) const {
@@ -117,9 +131,7 @@ std::vector<StructuralEffect> Structure::effects(const StructureScene& scene) co
                             fmt::format("structure.{} is {}", key, present ? "given" : "not given")};
   };
   std::vector<StructuralEffect> effects;
-  for (const auto& [name, part] : scene.parts)
-    effects.push_back(
-        {fmt::format("elements of {}", name), true, fmt::format("structure.parts.{} is given", name)});
+  for (const auto& [name, part] : scene.parts) add_effects_of_part(effects, name, part.element);
   effects.push_back(named("gravity on the structure", "gravity", scene.gravity.has_value()));
   effects.push_back(
       named("mass-proportional damping", "damping.mass", scene.damping && scene.damping->mass > 0));
@@ -160,7 +172,8 @@ void Structure::read_checkpoint(const std::filesystem::path& path) {
 }
 
 const StructureOutput& Structure::output() {
-  if (!output_) output_ = std::make_unique<StructureOutput>(model_, *integrator_, output_scene_);
+  if (!output_)
+    output_ = std::make_unique<StructureOutput>(model_, *integrator_, output_scene_, clock_.get());
   return *output_;
 }
 

@@ -67,6 +67,7 @@ class Structure {
   double step_ = 0;
   std::unique_ptr<Integrator> integrator_;
   core::OutputScene output_scene_;
+  std::unique_ptr<core::StageClock> clock_;  ///< nullptr: the scene does not ask for stage times
   std::unique_ptr<StructureOutput> output_;
 };
 

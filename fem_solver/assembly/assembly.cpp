@@ -25,6 +25,15 @@ void for_each_incidence(const Model& model, const std::vector<std::size_t>& slot
 
 }  // namespace
 
+std::vector<std::string> stages_of(const Model& model) {
+  std::vector<std::string> stages;
+  for (const auto& part : model.parts) stages.push_back("elements_of_" + part.name);
+  for (const char* stage : {"sum_at_nodes", "other_forces_and_supports", "motion_of_nodes",
+                            "sliding_constraints", "works_for_the_ledger", "everything_else"})
+    stages.push_back(stage);
+  return stages;
+}
+
 Assembly::Assembly(const Model& model) : model_(model) {
   std::size_t slots = 0;
   for (const auto& part : model.parts) {
@@ -61,14 +70,17 @@ void Assembly::compute_slots(const Compute& compute) noexcept {
           });
         },
         model_.parts[p].elements);
+    core::lap(clock_, p);
   }
 }
 
 void Assembly::internal_force(std::span<const double> displacement, std::span<double> force) noexcept {
+  start_step();  // whoever asks out of a step does not have the time before counted
   compute_slots([&](const auto& batch, std::span<double> slots, core::Block elements) {
     batch.internal_force(displacement, slots, elements);
   });
   gather(-1, force);
+  lap(StepStage::sum_at_nodes);
 }
 
 void Assembly::stiffness_product(std::span<const double> displacement, std::span<const double> direction,

@@ -3,9 +3,16 @@
 #include <span>
 #include <vector>
 
+#include "core/program/stage_clock.hpp"
 #include "fem_solver/model/model.hpp"
 
 namespace talus::fem {
+
+/// Stages of a step whose time is told apart where the scene asks for it, behind one for the elements of each
+/// part.
+enum class StepStage : std::size_t { sum_at_nodes, other_forces, motion, slides, energy, everything_else };
+/// Their names, those of the parts first.
+std::vector<std::string> stages_of(const Model& model);
 
 /// From element forces to node forces without races: every element writes its own slots, then every node sums
 /// the slots that belong to it in a fixed order. So the result has the same bits for any number of threads.
@@ -28,6 +35,15 @@ class Assembly {
 
   const Model& model() const { return model_; }
 
+  /// From here on the time of internal_force() is told by parts to this clock, whose stages are those of
+  /// stages_of(). @pre it outlives the assembly
+  void measure_stages(core::StageClock& clock) noexcept { clock_ = &clock; }
+  /// A step begins; the time up to here belongs to a stage. Nothing happens where no clock runs.
+  void start_step() const noexcept { core::start(clock_); }
+  void lap(StepStage stage) const noexcept {
+    core::lap(clock_, model_.parts.size() + static_cast<std::size_t>(stage));
+  }
+
  private:
   template <class Compute>
   void compute_slots(const Compute& compute) noexcept;
@@ -39,6 +55,7 @@ class Assembly {
   std::vector<double> slots_;            ///< 3 a slot
   std::vector<Index> incidence_begin_;  ///< of each node's slots, then of those it feels negated; and the end
   std::vector<Index> incidence_;        ///< first value of the slot
+  core::StageClock* clock_ = nullptr;   ///< nullptr: nobody asks for times
 };
 
 }  // namespace talus::fem

@@ -87,22 +87,29 @@ void ExplicitSolver::archive(core::StateArchive& archive) {
 }
 
 void ExplicitSolver::step(double time, double step) {
+  assembly_.start_step();
   state_.kick = 0.5 * (state_.previous_step + step);
   evaluate_forces(time);
   accept_memory(model_);
   impose_supports(time, step);
+  assembly_.lap(StepStage::other_forces);
   arrive(time);
+  assembly_.lap(StepStage::energy);
   if (!slides_.empty()) velocity_before_ = state_.velocity;
   const double activity =
       model_.damping.mass > 0 ? advance_nodes<MassDampingTerm>(step) : advance_nodes<NoTerm>(step);
+  assembly_.lap(StepStage::motion);
   if (!slides_.empty()) hold_slides(time, step);
+  assembly_.lap(StepStage::slides);
   leave(time, step);
+  assembly_.lap(StepStage::energy);
   state_.previous_step = step;
   ++state_.steps;
   prepared_ = false;
   if (!std::isfinite(activity)) report_blow_up(time + step);
   if (watch_ && state_.steps % StepWatch::interval == 0)
     watch_->look({state_.displacement, step, time + step, state_.steps, last_output_time});
+  assembly_.lap(StepStage::everything_else);
 }
 
 void ExplicitSolver::evaluate_forces(double time) noexcept {
@@ -129,6 +136,7 @@ void ExplicitSolver::evaluate_own_forces(double time, std::span<double> force) n
 
 // Not in state_.force, which has to stay that of the last step: the energy balance reads it.
 std::span<const double> ExplicitSolver::free_velocity(double time, double step) {
+  assembly_.start_step();
   prepare();
   free_velocity_.resize(state_.velocity.size());
   evaluate_own_forces(time, free_velocity_);
@@ -143,6 +151,7 @@ std::span<const double> ExplicitSolver::free_velocity(double time, double step) 
       if (support.fixed[c])
         free_velocity_[dof + c] = (target[static_cast<int>(c)] - state_.displacement[dof + c]) / step;
   });
+  assembly_.lap(StepStage::other_forces);
   return free_velocity_;
 }
 

@@ -27,6 +27,7 @@ ImplicitSolver::ImplicitSolver(const Model& model, Assembly& assembly, const Imp
 }
 
 void ImplicitSolver::advance(double time, double length) {
+  assembly_.start_step();
   if (state_.steps == 0) start(time);
   reports_.clear();
   const double end = time + length, smallest = smallest_share_of_step * options_.step;
@@ -41,6 +42,7 @@ void ImplicitSolver::advance(double time, double length) {
     share *= 0.5;
     if (share < smallest) report_failure(step);
   }
+  assembly_.lap(StepStage::everything_else);
 }
 
 void ImplicitSolver::archive(core::StateArchive& archive) {
@@ -104,6 +106,7 @@ void ImplicitSolver::update_rates(double dt, std::span<const double> displacemen
 void ImplicitSolver::residual(const Step& step, std::span<const double> displacement,
                               std::span<double> residual) {
   update_rates(step.length, displacement);
+  assembly_.lap(StepStage::everything_else);
   total_force(step.time + step.length, displacement, residual);
   force_scale_ = assembly_.largest_element_force();
   for (std::size_t i = 0; i < residual.size(); ++i) {

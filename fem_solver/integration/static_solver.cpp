@@ -29,6 +29,7 @@ StaticSolver::StaticSolver(const Model& model, Assembly& assembly, const StaticO
 }
 
 void StaticSolver::advance(double time, double length) {
+  assembly_.start_step();
   reports_.clear();
   const double end = time + length, smallest = smallest_share_of_step * options_.step;
   double share = std::min(length, options_.step);
@@ -45,6 +46,7 @@ void StaticSolver::advance(double time, double length) {
     if (share < smallest) report_failure(next);
   }
   check_for_mechanisms(end);
+  assembly_.lap(StepStage::everything_else);
 }
 
 void StaticSolver::archive(core::StateArchive& archive) {
@@ -72,6 +74,7 @@ NewtonSystem StaticSolver::system() {
 }
 
 void StaticSolver::residual(std::span<const double> displacement, std::span<double> residual) {
+  assembly_.lap(StepStage::everything_else);
   assembly_.internal_force(displacement, residual);
   force_scale_ = assembly_.largest_element_force();
   for (std::size_t i = 0; i < residual.size(); ++i) {

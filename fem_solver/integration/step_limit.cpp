@@ -90,68 +90,116 @@ double stable_step(double frequency, const Damping& damping) {
 
 namespace {
 
-struct ElementBound {
-  double seconds = std::numeric_limits<double>::infinity();
-  Index element = 0;
-};
-
-/// dt = L sqrt(rho/modulus), the time a wave takes along the shortest element: an element alone with its own
-/// lumped mass.
-template <class Compression, class Modulus>
-ElementBound shortest_passage(const TwoNodeBatch<Compression>& batch, const Modulus& modulus) {
-  ElementBound shortest;
-  for (Index e = 0; e < batch.size(); ++e) {
-    const double stiffness = modulus(e);
-    if (stiffness <= 0) continue;
-    const double seconds = batch.reference_length(e) * std::sqrt(batch.part().density / stiffness);
-    if (seconds < shortest.seconds) shortest = {seconds, e};
-  }
-  return shortest;
-}
-
-template <class Compression>
-void add_part_bounds(const Part& part, const TwoNodeBatch<Compression>& batch,
-                     std::span<const double> displacement, const Damping& damping,
-                     std::vector<StepBound>& bounds) {
-  const auto add = [&](const char* name, const char* formula, const ElementBound& bound) {
-    if (!std::isfinite(bound.seconds)) return;
-    bounds.push_back({fmt::format("{} {}", name, part.name), stable_step(2 / bound.seconds, damping),
-                      fmt::format("{}; element {} of {}, L = {:.4g} m", formula, bound.element, part.name,
-                                  batch.reference_length(bound.element))});
-  };
-  add("wave along", "L sqrt(density/(E (1 + 2 e) + S))",
-      shortest_passage(batch, [&](Index e) { return batch.wave_moduli(displacement, e).along; }));
-  add("string wave across", "L sqrt(density/S)",
-      shortest_passage(batch, [&](Index e) { return batch.wave_moduli(displacement, e).across; }));
-}
-
-/// Other elements have no closed form: the highest frequency of the structure stands for them.
+/// What limits a part's step, in words.
 template <class Batch>
-void add_part_bounds(const Part&, const Batch&, std::span<const double>, const Damping&,
-                     std::vector<StepBound>&) {}
+constexpr const char* kind_of = "elements";
+template <>
+constexpr const char* kind_of<BarBatch> = "bars";
+template <>
+constexpr const char* kind_of<CableBatch> = "cables";
+template <>
+constexpr const char* kind_of<SlidingCableBatch> = "sliding rope";
+template <>
+constexpr const char* kind_of<FrictionalCableBatch> = "sliding rope";
+template <>
+constexpr const char* kind_of<PenaltySlideBatch> = "penalty springs";
+template <class Law>
+constexpr const char* kind_of<MembraneBatch<Law>> = "membrane";
+template <>
+constexpr const char* kind_of<BrakeBatch> = "brakes";
+
+std::string formula(double frequency, const Damping& damping) {
+  return fmt::format("(2/w)(sqrt(1 + xi^2) - xi) with w = {:.6g} 1/s, xi = {:.3g}", frequency,
+                     0.5 * damping.stiffness * frequency);
+}
+
+/// The bounds of one structure at one state.
+class BoundSearch {
+ public:
+  BoundSearch(Assembly& assembly, std::span<const double> displacement)
+      : model_(assembly.model()),
+        displacement_(displacement),
+        whole_(largest_frequency(assembly, displacement)) {}
+
+  std::vector<StepBound> run() {
+    if (whole_ == 0) return {};
+    for (const auto& part : model_.parts)
+      std::visit([&](const auto& batch) { add_part(part.name, batch); }, part.elements);
+    std::ranges::stable_sort(bounds_, {}, &StepBound::seconds);
+    bounds_.insert(bounds_.begin(),
+                   {"highest frequency of the structure", stable_step(whole_, model_.damping),
+                    formula(whole_, model_.damping) +
+                        ", from the stiffness of the taut structure with its geometric part" + tightest_});
+    return std::move(bounds_);
+  }
+
+ private:
+  template <class Batch>
+  void add_part(const std::string& name, const Batch& batch) {
+    if (model_.parts.size() > 1)
+      add(fmt::format("{} of {} alone", kind_of<Batch>, name), frequency_of(batch), "");
+  }
+  template <class Compression>
+  void add_part(const std::string& name, const TwoNodeBatch<Compression>& batch) {
+    const std::string element = shortest_element(name, batch);
+    if (model_.parts.size() > 1)
+      add(fmt::format("{} of {} alone", kind_of<TwoNodeBatch<Compression>>, name), frequency_of(batch),
+          element);
+    if (batch.part().section.prestress <= 0) return;
+    AxialPart string = batch.part();
+    string.section.youngs_modulus = 0;
+    add(fmt::format("geometric stiffness of {} alone", name),
+        frequency_of(TwoNodeBatch<Compression>(string, batch.cells(), model_.reference)),
+        fmt::format("; sqrt(S/density) = {:.4g} m/s", std::sqrt(string.section.prestress / string.density)));
+  }
+
+  /// Of the structure's masses on these elements alone; never above the whole structure's, but for round-off.
+  double frequency_of(ElementBatch elements) const {
+    Model alone = model_;
+    alone.parts.clear();
+    alone.parts.push_back({"alone", std::move(elements), {}});
+    Assembly assembly(alone);
+    return std::min(whole_, largest_frequency(assembly, displacement_));
+  }
+  void add(const std::string& name, double frequency, const std::string& more) {
+    if (frequency > 0)
+      bounds_.push_back(
+          {name, stable_step(frequency, model_.damping), formula(frequency, model_.damping) + more});
+  }
+
+  /// The element that a wave passes in the shortest time, L sqrt(density/(E (1 + 2 e) + S)).
+  template <class Compression>
+  std::string shortest_element(const std::string& name, const TwoNodeBatch<Compression>& batch) {
+    Index shortest = -1;
+    double seconds = std::numeric_limits<double>::infinity();
+    for (Index e = 0; e < batch.size(); ++e) {
+      const double passage = batch.reference_length(e) *
+                             std::sqrt(batch.part().density / batch.wave_moduli(displacement_, e).along);
+      if (passage < seconds) seconds = passage, shortest = e;
+    }
+    if (shortest < 0) return "";
+    const std::string element = fmt::format(
+        "; its shortest element is {} of {}, L = {:.4g} m, which a wave passes in {:.4g} s", shortest, name,
+        batch.reference_length(shortest), seconds);
+    if (seconds < shortest_passage_) {
+      shortest_passage_ = seconds;
+      tightest_ = element;
+    }
+    return element;
+  }
+
+  const Model& model_;
+  std::span<const double> displacement_;
+  double whole_;
+  double shortest_passage_ = std::numeric_limits<double>::infinity();
+  std::string tightest_;
+  std::vector<StepBound> bounds_;
+};
 
 }  // namespace
 
 std::vector<StepBound> step_bounds(Assembly& assembly, std::span<const double> displacement) {
-  const Model& model = assembly.model();
-  std::vector<StepBound> bounds;
-  for (const auto& part : model.parts)
-    std::visit([&](const auto& batch) { add_part_bounds(part, batch, displacement, model.damping, bounds); },
-               part.elements);
-  std::ranges::stable_sort(bounds, {}, &StepBound::seconds);
-  const double frequency = largest_frequency(assembly, displacement);
-  if (frequency == 0) return bounds;
-  const std::string tightest = bounds.empty() ? ""
-                                              : fmt::format("; its tightest elements: {}, {}",
-                                                            bounds.front().name, bounds.front().reason);
-  bounds.insert(
-      bounds.begin(),
-      {"highest frequency of the structure", stable_step(frequency, model.damping),
-       fmt::format(
-           "(2/w)(sqrt(1 + xi^2) - xi) with w = {:.6g} 1/s, xi = {:.3g}, from the stiffness of the taut "
-           "structure with its geometric part{}",
-           frequency, 0.5 * model.damping.stiffness * frequency, tightest)});
-  return bounds;
+  return BoundSearch(assembly, displacement).run();
 }
 
 }  // namespace talus::fem

@@ -10,7 +10,7 @@ namespace talus::fem {
 
 /// A bound on the explicit step, with what sets it.
 struct StepBound {
-  std::string name;  ///< "structure: wave along net"
+  std::string name;  ///< "penalty springs of edge_south alone"
   double seconds = 0;
   std::string reason;  ///< formula and values
 };
@@ -30,8 +30,11 @@ double largest_frequency(Assembly& assembly, std::span<const double> displacemen
 /// @param frequency w, 1/s. @param damping its stiffness factor b (s) is used. @returns s; infinity for w = 0
 double stable_step(double frequency, const Damping& damping);
 
-/// The bounds at a state, the tightest first: that of the whole structure, and for each part of bars or
-/// cables the closed forms for waves along and across it.
+/// The bounds at a state, the tightest first: that of the whole structure; where it has several parts, those
+/// of each part's stiffness alone on the structure's masses (bars, cables, sliding ropes, penalty springs,
+/// ...); and that of the geometric stiffness of each prestressed part of bars or cables alone (at the
+/// reference state). None but the first is enough, each is necessary: stiffness that is added only raises
+/// frequencies (Courant's minimax principle).
 std::vector<StepBound> step_bounds(Assembly& assembly, std::span<const double> displacement);
 
 }  // namespace talus::fem

@@ -39,10 +39,12 @@ void copy_node_values(const Part& part, std::span<const double> values, std::spa
 
 }  // namespace
 
-StructureOutput::StructureOutput(const Model& model, Integrator& integrator, const core::OutputScene& scene)
-    : model_(model), integrator_(integrator), probes_(probe_columns(model, scene)) {
+StructureOutput::StructureOutput(const Model& model, Integrator& integrator, const core::OutputScene& scene,
+                                 const core::StageClock* clock)
+    : model_(model), integrator_(integrator), clock_(clock), probes_(probe_columns(model, scene)) {
   choose_ledger_lines();
   for (const auto& probe : probes_) description_.probes.push_back({probe.name});
+  if (clock_) clock_->describe(description_.probes);
   for (const auto& line : ledger_) description_.ledger.push_back(line.description);
   for (const auto& part : model.parts) description_.groups.push_back(group_of(part));
 }
@@ -73,6 +75,7 @@ void StructureOutput::choose_ledger_lines() {
 
 void StructureOutput::fill_probes(std::span<double> values) const {
   for (std::size_t i = 0; i < probes_.size(); ++i) values[i] = probes_[i].value(integrator_);
+  if (clock_) std::ranges::copy(clock_->seconds(), values.subspan(probes_.size()).begin());
 }
 
 void StructureOutput::fill_ledger(std::span<double> joules) const {

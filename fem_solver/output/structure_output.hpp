@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/output/source.hpp"
+#include "core/program/stage_clock.hpp"
 #include "core/scene/sections.hpp"
 #include "fem_solver/integration/integrator.hpp"
 #include "fem_solver/output/probes.hpp"
@@ -14,8 +15,10 @@ namespace talus::fem {
 /// elements as a group with displacement, velocity, axial force and stress.
 class StructureOutput final : public core::OutputSource {
  public:
-  /// @pre model and integrator outlive the output
-  StructureOutput(const Model& model, Integrator& integrator, const core::OutputScene& scene);
+  /// @param clock of the stages' times; nullptr: they are not written
+  /// @pre model, integrator and clock outlive the output
+  StructureOutput(const Model& model, Integrator& integrator, const core::OutputScene& scene,
+                  const core::StageClock* clock = nullptr);
 
   const core::OutputDescription& description() const override { return description_; }
   void fill_probes(std::span<double> values) const override;
@@ -32,6 +35,7 @@ class StructureOutput final : public core::OutputSource {
 
   const Model& model_;
   Integrator& integrator_;
+  const core::StageClock* clock_;
   std::vector<ProbeColumn> probes_;
   std::vector<LedgerLine> ledger_;
   core::OutputDescription description_;

@@ -1,5 +1,6 @@
 #include "fem_solver/integration/step_limit.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
@@ -154,14 +155,32 @@ TEST_CASE("stretching a bar by a fifth raises its own limit frequency squared by
   CHECK(ratio * ratio == Approx(1 + 3 * e).epsilon(1e-9));
 }
 
-TEST_CASE("the bounds name waves along and across each part and put the whole structure first") {
+TEST_CASE("the bounds are those of the structure, of each part alone, and of its tension alone") {
+  // Rope nodes at both ends of a slider's spring; ropes of 16 divisions between fixed ends.
+  constexpr double alpha = 1e6, slider_mass = 0.3;
   Model model = tests::chain<CableBatch>(string, 2, 16);
+  model.supports = {tests::fixed({0, 16})};
+  std::vector<Index> rope(17);
+  std::iota(rope.begin(), rope.end(), 0);
+  model.reference.insert(model.reference.end(), {0.8, 0, 0});
+  model.parts.push_back({"slide", PenaltySlideBatch({rope, {17}}, alpha, model.reference), {}});
+  lump_masses(model);
+  model.node_masses[17] = slider_mass;
   Assembly assembly(model);
   const auto bounds = step_bounds(assembly, std::vector<double>(model.reference.size(), 0.0));
-  REQUIRE(bounds.size() == 3);
+  const auto seconds_of = [&](const std::string& name) {
+    const auto found = std::ranges::find(bounds, name, &StepBound::name);
+    REQUIRE(found != bounds.end());
+    return found->seconds;
+  };
+  REQUIRE(bounds.size() == 4);
   CHECK(bounds[0].name == "highest frequency of the structure");
-  CHECK(bounds[1].name == "wave along chain");
-  CHECK(bounds[1].seconds == Approx(2.0 / 16 * std::sqrt(8000 / (1e3 + 1e9))));
-  CHECK(bounds[2].name == "string wave across chain");
-  CHECK(bounds[2].seconds == Approx(2.0 / 16 * std::sqrt(8000 / 1e9)));
+  const double h = 2.0 / 16, shortest_wave = std::sin(15 * std::numbers::pi / 32);
+  CHECK(seconds_of("cables of chain alone") ==
+        Approx(h / (std::sqrt((1e3 + 1e9) / 8000) * shortest_wave)).epsilon(1e-6));
+  CHECK(seconds_of("geometric stiffness of chain alone") ==
+        Approx(h / (std::sqrt(1e9 / 8000) * shortest_wave)).epsilon(1e-6));
+  CHECK(seconds_of("penalty springs of slide alone") ==
+        Approx(2 / std::sqrt(alpha * (1 / slider_mass + 1 / model.node_masses[2]))).epsilon(1e-6));
+  for (const auto& bound : bounds) CHECK(bound.seconds >= bounds[0].seconds);
 }

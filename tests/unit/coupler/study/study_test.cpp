@@ -43,7 +43,7 @@ struct Study {
     return {.study = folder / "study.yaml", .out = folder / "out", .program = TALUS_FAKE_PROGRAM};
   }
   json result() const { return json::parse(test::text_of(folder / "out/study.json")); }
-  Folder folder;
+  mutable Folder folder;
 };
 
 const json& quantity(const json& result, const std::string& name) {
@@ -123,6 +123,20 @@ TEST_CASE("points that are complete are not run again, and those of a changed sc
       << replaced(study_text, "{key: model.order, value: 1}", "{key: model.order, value: 3}");
   study::run_study(study.request());
   CHECK(std::filesystem::last_write_time(count) != written);
+}
+
+TEST_CASE("a method may have a scene of its own, and a run that is only there for the reference is timed once") {
+  const Study study(replaced(study_text, "first: {set: [{key: model.order, value: 1}]}",
+                             "first: {base: other.yaml}"));
+  study.folder.add("other.yaml", "model: {step: 1 s, order: 3}\n");
+  study::run_study(study.request());
+  const json result = study.result();
+  CHECK(point(quantity(result, "peak").at("points"), "first_200_ms").at("error").get<double>() ==
+        Approx(0.008 / 3));
+  CHECK(test::text_of(study.folder / "out/runs/first_200_ms/count.txt") == "xx");
+  CHECK(test::text_of(study.folder / "out/runs/first_4_ms/count.txt") == "x");
+  CHECK_THAT(error_of(replaced(study_text, "first: {set: [", "first: {base: nothing.yaml, set: [")),
+             Catch::Contains("study.methods.first.base: no such file"));
 }
 
 TEST_CASE("shares of a study cover each point once, and missing points are shown as missing") {

@@ -1,0 +1,99 @@
+#include "coupler/explain/facts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+
+#include "core/errors.hpp"
+#include "core/output/field_reader.hpp"
+
+namespace talus::explain {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool has_field(const core::GroupDescription& group, const std::string& name) {
+  return std::ranges::any_of(group.fields, [&](const auto& field) { return field.name == name; });
+}
+
+void add_line_forces(const core::FieldReader& fields, const core::GroupDescription& group, std::int64_t frame,
+                     PartFacts& part) {
+  for (const double force : fields.read(group, "axial_force", frame)) {
+    part.tension = std::max(part.tension, force);
+    part.compression = std::max(part.compression, -force);
+  }
+}
+
+/// Principal stresses of every triangle: centre +- radius of Mohr's circle.
+void add_sheet_stresses(const core::FieldReader& fields, const core::GroupDescription& group,
+                        std::int64_t frame, PartFacts& part) {
+  const auto xx = fields.read(group, "stress_xx", frame), yy = fields.read(group, "stress_yy", frame),
+             xy = fields.read(group, "stress_xy", frame);
+  for (std::size_t i = 0; i < xx.size(); ++i) {
+    const double centre = 0.5 * (xx[i] + yy[i]), radius = std::hypot(0.5 * (xx[i] - yy[i]), xy[i]);
+    part.tension = std::max(part.tension, centre + radius);
+    part.compression = std::max(part.compression, radius - centre);
+  }
+  for (const double state : fields.read(group, "wrinkle_state", frame))
+    part.ever_wrinkled = part.ever_wrinkled || state != 0;
+}
+
+std::vector<PartFacts> parts_of(const fs::path& file) {
+  std::vector<PartFacts> parts;
+  if (!fs::exists(file)) return parts;
+  const core::FieldReader fields(file);
+  for (const auto& group : fields.groups()) {
+    const bool line = has_field(group, "axial_force"), sheet = has_field(group, "stress_xx");
+    if (!line && !sheet) continue;
+    PartFacts part{.name = group.name, .kind = line ? PartFacts::Kind::line : PartFacts::Kind::sheet};
+    for (std::int64_t frame = 0; frame < fields.frames(); ++frame)
+      line ? add_line_forces(fields, group, frame, part) : add_sheet_stresses(fields, group, frame, part);
+    parts.push_back(part);
+  }
+  return parts;
+}
+
+}  // namespace
+
+double ResultFacts::impact() const {
+  const auto& kinds = summary.at("energy").at("kinds");
+  std::vector<double> kinetic(energy.rows(), 0.0);
+  for (std::size_t c = 0; c < energy.names.size(); ++c) {
+    const std::string& name = energy.names[c];
+    if (name.find("kinetic") == std::string::npos || kinds.value(name, "") != "stored") continue;
+    for (std::size_t i = 0; i < kinetic.size(); ++i) kinetic[i] += energy.columns[c][i];
+  }
+  return kinetic.empty() ? 0 : *std::ranges::max_element(kinetic);
+}
+
+double ResultFacts::largest(const std::string& line) const {
+  double largest = 0;
+  if (const auto* values = energy.column(line))
+    for (const double joules : *values) largest = std::max(largest, std::abs(joules));
+  return largest;
+}
+
+bool ResultFacts::has(const std::string& side, const std::string& effect) const {
+  const auto effects = summary.value("effects", nlohmann::json::array());
+  return std::ranges::any_of(effects, [&](const auto& known) {
+    return known.at("side") == side && known.at("name") == effect && known.at("present");
+  });
+}
+
+std::vector<std::string> ResultFacts::lines(const std::string& beginning) const {
+  std::vector<std::string> found;
+  std::ranges::copy_if(energy.names, std::back_inserter(found),
+                       [&](const std::string& name) { return name.starts_with(beginning); });
+  return found;
+}
+
+ResultFacts read_facts(const fs::path& result) {
+  std::ifstream summary(result / "summary.json");
+  if (!summary)
+    throw core::ConfigError("'" + result.string() + "' holds no result: there is no summary.json");
+  return {.summary = nlohmann::json::parse(summary),
+          .energy = core::read_table(result / "energy.csv"),
+          .parts = parts_of(result / "fields.h5")};
+}
+
+}  // namespace talus::explain
