@@ -17,13 +17,14 @@ atexit.register(_WORK.cleanup)
 
 
 class Run:
-    """`scene`, a path without its ending below configs/, with the YAML text `changes` over it, by `talus` or, where it has no particles,
-    `fem_solver`."""
+    """`scene`, a file or a path without its ending below configs/, with the YAML text `changes` over it, by `talus` or, where it has no
+    particles, `fem_solver`."""
 
-    def __init__(self, scene: str, changes: str = "", *, program: str = "talus", options: tuple[str, ...] = ()):
+    def __init__(self, scene: str | pathlib.Path, changes: str = "", *, program: str = "talus", options: tuple[str, ...] = ()):
         folder = pathlib.Path(tempfile.mkdtemp(dir=_WORK.name))
         changed, self.result = folder / "scene.yaml", folder / "result"
-        changed.write_text(f"extends: {ROOT}/configs/{scene}.yaml\n{changes}")
+        base = scene if isinstance(scene, pathlib.Path) else f"{ROOT}/configs/{scene}.yaml"
+        changed.write_text(f"extends: {base}\n{changes}")
         command = [BUILD / "bin" / program, *(["run"] if program == "talus" else []), changed, "--out", self.result, "--quiet", *options]
         self.done = subprocess.run(command, capture_output=True, text=True)
 
