@@ -25,7 +25,8 @@ void add_explain(CLI::App& app, Chosen& chosen) {
   command->footer(
       "Example:\n  talus explain configs/examples/cable_net.yaml\n  talus explain results/cable_net");
   const auto path = std::make_shared<std::filesystem::path>();
-  command->add_option("SCENE_OR_RESULT", *path, "a scene (a YAML file) or the folder of a result")->required();
+  command->add_option("SCENE_OR_RESULT", *path, "a scene (a YAML file) or the folder of a result")
+      ->required();
   command->callback([path, &chosen] {
     chosen.run = [path] {
       return std::filesystem::is_directory(*path) ? explain_result(*path) : explain_scene(*path);

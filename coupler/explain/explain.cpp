@@ -49,7 +49,7 @@ std::string energy_shares(const ResultFacts& facts) {
   std::string text =
       fmt::format("energy (largest of each line, and its share of the impact's {:.4g} J)\n", impact);
   for (const auto& [line, kind] : facts.summary.at("energy").at("kinds").items())
-    text += fmt::format("  {:>8.2g} %  {:>12.4g} J  {:<10} {}\n",
+    text += fmt::format("  {:>8.3g} %  {:>12.4g} J  {:<10} {}\n",
                         impact > 0 ? 100 * facts.largest(line) / impact : 0, facts.largest(line),
                         kind.get<std::string>(), line);
   return text;

@@ -61,16 +61,15 @@ std::vector<Finding> rolling_without_rotation(const ResultFacts& facts) {
 }
 
 std::vector<Finding> gravity_that_does_no_work(const ResultFacts& facts) {
-  std::vector<Finding> findings = idle(
-      facts, {"structure", "gravity on the structure", "structure.gravity_J", "structure.gravity"});
+  std::vector<Finding> findings =
+      idle(facts, {"structure", "gravity on the structure", "structure.gravity_J", "structure.gravity"});
   append(findings, idle(facts, {"particles", "gravity", "particles.gravity_J", "particles.gravity"}));
   return findings;
 }
 
 std::vector<Finding> damping_that_takes_nothing(const ResultFacts& facts) {
-  std::vector<Finding> findings =
-      idle(facts, {"structure", "mass-proportional damping", "structure.bulk_damping_J",
-                   "structure.damping.mass"});
+  std::vector<Finding> findings = idle(facts, {"structure", "mass-proportional damping",
+                                               "structure.bulk_damping_J", "structure.damping.mass"});
   append(findings, idle(facts, {"structure", "stiffness-proportional damping", "structure.bulk_damping_J",
                                 "structure.damping.stiffness"}));
   return findings;
@@ -95,10 +94,10 @@ std::vector<Finding> tension_fields_that_stay_taut(const ResultFacts& facts) {
   std::vector<Finding> findings;
   for (const auto& part : facts.parts)
     if (facts.has("structure", "tension field of " + part.name) && !part.ever_wrinkled)
-      findings.push_back({may_be_left_out,
-                          fmt::format("membrane `{}` stays taut in every frame: its `tension_field` "
-                                      "may be dropped",
-                                      part.name)});
+      findings.push_back(
+          {may_be_left_out, fmt::format("membrane `{}` stays taut in every frame: its `tension_field` "
+                                        "may be dropped",
+                                        part.name)});
   return findings;
 }
 
@@ -117,8 +116,8 @@ std::vector<Finding> compression_in_sheets(const ResultFacts& facts) {
     if (part.kind != PartFacts::Kind::sheet || facts.has("structure", "tension field of " + part.name) ||
         part.compression <= negligible_compression * part.tension)
       continue;
-    findings.push_back({seems_missing,
-                        fmt::format("compression up to {:.2g} % of the tension in membrane `{}`: no "
+    findings.push_back(
+        {seems_missing, fmt::format("compression up to {:.2g} % of the tension in membrane `{}`: no "
                                     "tension field; `tension_field` lets it wrinkle instead",
                                     100 * part.compression / part.tension, part.name)});
   }
@@ -169,9 +168,9 @@ std::vector<Finding> energy_that_does_not_close(const ResultFacts& facts) {
 
 const std::vector<Rule>& rules() {
   static const std::vector<Rule> all{
-      friction_that_turns_nothing,    rolling_without_rotation,      gravity_that_does_no_work,
-      damping_that_takes_nothing,     parts_that_never_dissipate,    tension_fields_that_stay_taut,
-      iterations_that_change_nothing, compression_in_sheets,         compression_in_wires,
+      friction_that_turns_nothing,       rolling_without_rotation,    gravity_that_does_no_work,
+      damping_that_takes_nothing,        parts_that_never_dissipate,  tension_fields_that_stay_taut,
+      iterations_that_change_nothing,    compression_in_sheets,       compression_in_wires,
       dashpots_too_fast_for_their_nodes, energy_made_by_the_coupling, energy_that_does_not_close};
   return all;
 }

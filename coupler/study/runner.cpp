@@ -64,8 +64,7 @@ int repeats_of(const PlannedRun& run, const RunnerOptions& options) {
 
 bool is_complete(const json& point, const PlannedRun& run, const RunnerOptions& options) {
   return !point.is_null() && point.at("scene") == run.scene &&
-         point.at("repeats").get<int>() >= repeats_of(run, options) &&
-         point.at("threads") == options.threads;
+         point.at("repeats").get<int>() >= repeats_of(run, options) && point.at("threads") == options.threads;
 }
 
 }  // namespace
@@ -91,9 +90,12 @@ bool run_point(const PlannedRun& run, const RunnerOptions& options) {
   fs::create_directories(part);
   core::replace_file(part / "scene.yaml", run.scene);
   const int repeats = repeats_of(run, options);
-  json record{
-      {"scene", run.scene},          {"repeats", repeats},            {"threads", options.threads},
-      {"machine", machine_record()}, {"loop_seconds", json::array()}, {"process_seconds", json::array()}};
+  json record{{"scene", run.scene},
+              {"repeats", repeats},
+              {"threads", options.threads},
+              {"machine", machine_record()},
+              {"loop_seconds", json::array()},
+              {"process_seconds", json::array()}};
   Ended ended;
   for (int i = 0; i < repeats && ended.outcome == Outcome::ok; ++i) {
     const auto once = run_once(part, options, record);

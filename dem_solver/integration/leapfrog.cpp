@@ -16,21 +16,23 @@ struct StepRows {
   Lanes step, kick;  ///< s, s, s, 0: the fourth component of a row does not move
 };
 
+template <bool rotates, bool falls>
 TALUS_INLINE void move_sphere(Spheres& s, Index i, const StepRows& by, Extremes& extremes) noexcept {
   const double mass = s.velocity[i].w, radius = s.position[i].w;
-  const Lanes velocity = load(s.velocity[i]) + (load(s.force[i]) * (by.kick / mass) + by.gravity);
+  Lanes gained = load(s.force[i]) * (by.kick / mass);
+  if constexpr (falls) gained += by.gravity;
+  const Lanes velocity = load(s.velocity[i]) + gained;
   store(s.velocity[i], velocity);
   store(s.position[i], load(s.position[i]) + velocity * by.step);
-  if (s.rotates())
+  if constexpr (rotates)
     store(s.spin[i], load(s.spin[i]) + load(s.torque[i]) * (by.kick / (0.4 * mass * radius * radius)));
   const double squared = velocity[0] * velocity[0] + velocity[1] * velocity[1] + velocity[2] * velocity[2];
   extremes.speed_squared = std::max(extremes.speed_squared, squared);
   extremes.sum += squared;
 }
 
-}  // namespace
-
-MotionSummary kick_and_drift(Spheres& spheres, const LeapfrogStep& how) noexcept {
+template <bool rotates, bool falls>
+MotionSummary move_all(Spheres& spheres, const LeapfrogStep& how) noexcept {
   const StepRows by{.gravity = Lanes{how.gravity.x, how.gravity.y, how.gravity.z, 0} * how.kick,
                     .step = Lanes{how.step, how.step, how.step, 0},
                     .kick = Lanes{how.kick, how.kick, how.kick, 0}};
@@ -41,11 +43,20 @@ MotionSummary kick_and_drift(Spheres& spheres, const LeapfrogStep& how) noexcept
   for (Index i = 0; i < count; ++i) {
     if (has_rocks && spheres.rock[i] >= 0) continue;
     Extremes extremes;
-    move_sphere(spheres, i, by, extremes);
+    move_sphere<rotates, falls>(spheres, i, by, extremes);
     speed_squared = std::max(speed_squared, extremes.speed_squared);
     sum += extremes.sum;
   }
   return {.largest_speed = std::sqrt(speed_squared), .finite = std::isfinite(sum)};
+}
+
+}  // namespace
+
+MotionSummary kick_and_drift(Spheres& spheres, const LeapfrogStep& how) noexcept {
+  const bool falls = dot(how.gravity, how.gravity) > 0;
+  if (spheres.rotates())
+    return falls ? move_all<true, true>(spheres, how) : move_all<true, false>(spheres, how);
+  return falls ? move_all<false, true>(spheres, how) : move_all<false, false>(spheres, how);
 }
 
 }  // namespace talus::dem

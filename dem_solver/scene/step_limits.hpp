@@ -27,15 +27,16 @@ struct LimitContext {
 /// linear) collision at that speed with a rigid partner.
 ///
 /// Stability: beyond them the motion gains energy or passes through walls.
-///   contact spring      2 sqrt(m/k)         leapfrog on the tangent stiffness k at the largest overlap
-///   spring on nodes     2 sqrt(m_n/k)       the same spring moves a boundary node of mass m_n
-///   tunnelling          (R + r_w)/(2 v)     the centre must not reach the other side of a wire or face in a
-///   step
+///     contact spring       2 sqrt(m/k)        leapfrog on the tangent stiffness k at the largest overlap
+///     spring on nodes      2 sqrt(m_n/k)      the same spring moves a boundary node of mass m_n
+///     tunnelling           (R + r_w)/(2 v)    a centre must not reach the other side of a wire in a step
 /// Accuracy: beyond them results drift from the converged ones, bounded because a contact never pulls.
-///   contact duration    t_c/30              restitution within 1 % (test "Thirty steps a contact keep the
-///   restitution within 1 %") Rayleigh            0.3 pi R sqrt(rho/G)/(0.1630 v + 0.8766)      a surface
-///   wave must not cross a sphere in a step dashpot on nodes    2 m_n/c             the dashpot sized by the
-///   rock's mass would reverse a light node's velocity in a step
+///     contact duration     t_c/30             restitution within 1 %
+///     Rayleigh             0.3 pi R sqrt(rho/G)/(0.1630 v + 0.8766)
+///                                             a surface wave must not cross a sphere in a step
+///     dashpot on nodes     2 m_n/c            the dashpot sized by the rock's mass would reverse a light
+///                                             node's velocity in a step
+/// Tests: tests/coupled/step_limits_test.py takes each to 0.95 and to 1.1.
 std::vector<ParticleStepLimit> step_limits(const ParticleModel& model, const LimitContext& context);
 
 }  // namespace talus::dem

@@ -94,6 +94,7 @@ coupler::Declaration declaration(Structure& structure, const StructuralScene& sc
   coupler::Declaration declared{
       .program = "fem_solver " + core::version(),
       .step = structure.step(),
+      .insists_on_step = scene.structure.unstable_step == StructureScene::UnstableStep::allowed,
       .free_velocity = !structure.integrator().free_velocity(0, structure.step()).empty(),
       .checkpoints = true,
       .limits = {},

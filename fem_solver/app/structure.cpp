@@ -49,8 +49,9 @@ double chosen_step(const StructuralScene& scene, const std::vector<StepBound>& b
 void add_effects_of_part(std::vector<StructuralEffect>& effects, const std::string& part,
                          const ElementScene& element) {
   const auto add = [&](const char* effect, const char* key, bool present) {
-    effects.push_back({fmt::format("{} of {}", effect, part), present,
-                       fmt::format("structure.parts.{}{} is {}", part, key, present ? "given" : "not given")});
+    effects.push_back(
+        {fmt::format("{} of {}", effect, part), present,
+         fmt::format("structure.parts.{}{} is {}", part, key, present ? "given" : "not given")});
   };
   add("elements", "", true);
   if (const auto* sheet = std::get_if<MembraneScene>(&element))

@@ -165,18 +165,32 @@ void ExplicitSolver::subtract_stiffness_damping(std::span<double> force) noexcep
 
 void ExplicitSolver::impose_supports(double time, double step) noexcept {
   const double half_damping = 0.5 * model_.damping.mass * state_.kick;
-  for_each_support(model_, [&](const Support& support, std::size_t dof, std::size_t offset) {
-    const Vector3 target = support.history.at(time + step) * support.displacement;
-    for (std::size_t c = 0; c < 3; ++c) {
-      if (!support.fixed[c]) continue;
-      const double after = (target[static_cast<int>(c)] - state_.displacement[dof + c]) / step;
-      const double momentum_change =
-          (1 + half_damping) * after - (1 - half_damping) * state_.velocity[dof + c];
-      const double needed = model_.node_masses[dof / 3] * momentum_change / state_.kick;
-      state_.reactions[offset + c] = needed - state_.force[dof + c];
-      state_.force[dof + c] = needed;
+  std::size_t offset = 0;
+  const auto impose = [&](const Support& support, const auto& velocity_after) {
+    for (const Index node : support.nodes) {
+      const auto dof = 3 * static_cast<std::size_t>(node);
+      const double mass = model_.node_masses[static_cast<std::size_t>(node)];
+      for (std::size_t c = 0; c < 3; ++c) {
+        if (!support.fixed[c]) continue;
+        const double momentum_change =
+            (1 + half_damping) * velocity_after(dof, c) - (1 - half_damping) * state_.velocity[dof + c];
+        const double needed = mass * momentum_change / state_.kick;
+        state_.reactions[offset + c] = needed - state_.force[dof + c];
+        state_.force[dof + c] = needed;
+      }
+      offset += 3;
     }
-  });
+  };
+  for (const Support& support : model_.supports) {
+    if (!support.moves()) {
+      impose(support, [](std::size_t, std::size_t) { return 0.0; });  // its nodes are where they are to be
+      continue;
+    }
+    const Vector3 target = support.history.at(time + step) * support.displacement;
+    impose(support, [&](std::size_t dof, std::size_t c) {
+      return (target[static_cast<int>(c)] - state_.displacement[dof + c]) / step;
+    });
+  }
 }
 
 /// Eight directions at a time, their sums apart: a fixed order that fits vector registers.

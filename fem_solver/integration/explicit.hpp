@@ -128,6 +128,7 @@ class ExplicitSolver final : public Integrator {
   enum WorkLine : std::size_t { by_loads, by_supports, by_interface, by_stiffness_damping, by_slides };
   using Powers = std::array<double, 4>;  ///< of what is known before the step
   Powers powers(double time) const noexcept;
+  double power_of_supports() const noexcept;
   void arrive(double time) noexcept;
   void leave(double time, double step) noexcept;
   std::vector<double> displacement_at_evaluation() const;

@@ -1,4 +1,6 @@
 // What an explicit run knows of its energies. The step itself: explicit.cpp.
+#include <algorithm>
+
 #include "fem_solver/integration/explicit.hpp"
 #include "fem_solver/integration/external_force.hpp"
 
@@ -26,16 +28,21 @@ ExplicitSolver::Powers ExplicitSolver::powers(double time) const noexcept {
     for (const Index node : load.nodes)
       power[by_loads] += force.dot(Vector3::Map(&state_.velocity[3 * node]));
   }
-  for_each_support(model_, [&](const Support& support, std::size_t dof, std::size_t offset) {
-    if (!support.moves()) return;
-    for (std::size_t c = 0; c < 3; ++c)
-      power[by_supports] += state_.reactions[offset + c] * state_.velocity[dof + c];
-  });
+  if (std::ranges::any_of(model_.supports, &Support::moves)) power[by_supports] = power_of_supports();
   interface_.for_each([&](Index node, const auto& on_node) {
     power[by_interface] += on_node.dot(Vector3::Map(&state_.velocity[3 * node]));
   });
   for (std::size_t i = 0; i < damping_force_.size(); ++i)
     power[by_stiffness_damping] += damping_force_[i] * state_.velocity[i];
+  return power;
+}
+
+double ExplicitSolver::power_of_supports() const noexcept {
+  double power = 0;
+  for_each_support(model_, [&](const Support& support, std::size_t dof, std::size_t offset) {
+    if (!support.moves()) return;
+    for (std::size_t c = 0; c < 3; ++c) power += state_.reactions[offset + c] * state_.velocity[dof + c];
+  });
   return power;
 }
 

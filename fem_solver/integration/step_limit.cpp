@@ -178,9 +178,9 @@ class BoundSearch {
       if (passage < seconds) seconds = passage, shortest = e;
     }
     if (shortest < 0) return "";
-    const std::string element = fmt::format(
-        "; its shortest element is {} of {}, L = {:.4g} m, which a wave passes in {:.4g} s", shortest, name,
-        batch.reference_length(shortest), seconds);
+    const std::string element =
+        fmt::format("; its shortest element is {} of {}, L = {:.4g} m, which a wave passes in {:.4g} s",
+                    shortest, name, batch.reference_length(shortest), seconds);
     if (seconds < shortest_passage_) {
       shortest_passage_ = seconds;
       tightest_ = element;

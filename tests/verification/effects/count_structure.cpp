@@ -9,7 +9,7 @@
 #include "tests/verification/effects/lean_structure.hpp"
 
 /// count_structure whole|lean SCENE STEPS: takes explicit steps of a scene with the whole solver, or with one
-/// that knows nothing but the elements of the scene's only part. Prints the bytes of heap that the solver takes.
+/// that knows nothing but elements and still supports. Prints the bytes of heap that the solver takes.
 namespace {
 
 using namespace talus;
@@ -32,15 +32,6 @@ class WholeStructure final : public test::Stepper {
   fem::ExplicitSolver solver_;
 };
 
-std::unique_ptr<test::Stepper> lean(const fem::Model& model, double step) {
-  const fem::ElementBatch& elements = model.parts.at(0).elements;
-  if (std::holds_alternative<fem::CableBatch>(elements))
-    return std::make_unique<test::LeanStructure<fem::CableBatch>>(model, step);
-  if (std::holds_alternative<fem::SlidingCableBatch>(elements))
-    return std::make_unique<test::LeanStructure<fem::SlidingCableBatch>>(model, step);
-  return std::make_unique<test::LeanStructure<fem::PlainMembraneBatch>>(model, step);
-}
-
 }  // namespace
 
 int main(int count, char** arguments) {
@@ -50,7 +41,7 @@ int main(int count, char** arguments) {
   const std::size_t before = test::heap_bytes();
   std::unique_ptr<test::Stepper> stepper;
   if (std::string_view(arguments[1]) == "lean")
-    stepper = lean(structure.model(), structure.step());
+    stepper = std::make_unique<test::LeanStructure>(structure.model(), structure.step());
   else
     stepper = std::make_unique<WholeStructure>(
         structure.model(), structure.step(),

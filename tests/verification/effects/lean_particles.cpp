@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "dem_solver/collision/size_classes.hpp"
+#include "dem_solver/integration/leapfrog.hpp"
 
 namespace talus::test {
 
@@ -17,16 +18,32 @@ LeanParticles::LeanParticles(const ParticleModel& model) : pairs_(model.pairs), 
 
 void LeanParticles::step() {
   find_neighbours();
-  std::ranges::fill(spheres_.force, Row{});
-  contacts_.evaluate({spheres_, pair_list_, pairs_, step_, 1});
-  travelled_ += move_spheres() * step_;
+  for (Index i = 0; i < spheres_.size(); ++i) spheres_.force[i] = {};
+  contacts_.evaluate(contact_stage());
+  const MotionSummary motion = kick_and_drift(spheres_, {.gravity = {}, .step = step_, .kick = step_});
+  if (!motion.finite) throw std::runtime_error("velocities overflow");
+  travelled_ += motion.largest_speed * step_;
+}
+
+ContactStage LeanParticles::contact_stage() {
+  return {.spheres = spheres_,
+          .rocks = rocks_,
+          .place = place_,
+          .planes = {},
+          .boundary = boundary_,
+          .pair_list = pair_list_,
+          .plane_list = plane_list_,
+          .boundary_list = boundary_list_,
+          .table = pairs_,
+          .step = step_};
 }
 
 void LeanParticles::find_neighbours() {
   if (listed_ && 2 * travelled_ < skin_) return;
   if (listed_) travelled_ = largest_motion();
   if (listed_ && 2 * travelled_ < skin_) return;
-  contacts_.rebuild(pair_list_, pair_list_.rebuild(spheres_, skin_, 1).moves);
+  const auto rebuilt = pair_list_.rebuild(spheres_, skin_, 1);
+  contacts_.rebuild(contact_stage(), {rebuilt.moves, {}, {}});
   place_ = spheres_.places();
   listed_position_ = spheres_.position;
   travelled_ = 0;
@@ -40,22 +57,6 @@ double LeanParticles::largest_motion() const noexcept {
     largest = std::max(largest, dot(moved, moved));
   }
   return std::sqrt(largest);
-}
-
-double LeanParticles::move_spheres() noexcept {
-  const Lanes step{step_, step_, step_, 0};
-  double speed_squared = 0, sum = 0;
-  for (Index i = 0; i < spheres_.size(); ++i) {
-    const Lanes velocity =
-        load(spheres_.velocity[i]) + load(spheres_.force[i]) * (step / spheres_.velocity[i].w);
-    store(spheres_.velocity[i], velocity);
-    store(spheres_.position[i], load(spheres_.position[i]) + velocity * step);
-    const double squared = velocity[0] * velocity[0] + velocity[1] * velocity[1] + velocity[2] * velocity[2];
-    speed_squared = std::max(speed_squared, squared);
-    sum += squared;
-  }
-  if (!std::isfinite(sum)) throw std::runtime_error("velocities overflow");
-  return std::sqrt(speed_squared);
 }
 
 }  // namespace talus::test

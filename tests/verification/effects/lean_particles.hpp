@@ -2,29 +2,33 @@
 
 #include <vector>
 
-#include "dem_solver/contact/pair_contacts.hpp"
 #include "dem_solver/solver.hpp"
 #include "tests/verification/effects/counting.hpp"
 
 namespace talus::test {
 
 /// The particle solver as it would be if it knew spheres with Hertz contacts and nothing else: no gravity,
-/// planes, boundary, rocks, rotation, friction, gates, ledger. Composed of the same kernels.
+/// planes, boundary, rocks, rotation, friction, gates, ledger. Composed of the same kernels; the contact model's
+/// lists of planes and boundaries are empty.
 class LeanParticles final : public Stepper {
  public:
   explicit LeanParticles(const dem::ParticleModel& model);
   void step() override;
 
  private:
+  dem::ContactStage contact_stage();
   void find_neighbours();
   double largest_motion() const noexcept;
-  double move_spheres() noexcept;
 
   dem::Spheres spheres_;
   dem::PairTable pairs_;
   double step_ = 0, skin_ = 0, travelled_ = 0;
   dem::PairList pair_list_;
-  dem::PairContacts<dem::ContactLaw<dem::Hertz, dem::NoTerm, dem::NoTerm, dem::NoTerm>> contacts_;
+  dem::PlaneList plane_list_;
+  dem::Boundary boundary_;
+  dem::BoundaryList boundary_list_;
+  dem::Rocks rocks_;
+  dem::ContactModel<dem::ContactLaw<dem::Hertz, dem::NoTerm, dem::NoTerm, dem::NoTerm>> contacts_;
   std::vector<dem::Index> place_;
   std::vector<dem::Row> listed_position_;
   bool listed_ = false;

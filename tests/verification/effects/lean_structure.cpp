@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cmath>
-#include <numeric>
 #include <stdexcept>
 
 #include "fem_solver/integration/external_force.hpp"
@@ -11,9 +10,7 @@ namespace talus::test {
 
 using namespace fem;
 
-template <class Batch>
-LeanStructure<Batch>::LeanStructure(const Model& model, double step)
-    : model_(model), elements_(std::get<Batch>(model.parts.at(0).elements)), step_(step) {
+LeanStructure::LeanStructure(const Model& model, double step) : model_(model), assembly_(model), step_(step) {
   const std::size_t values = model.reference.size();
   displacement_.assign(values, 0);
   velocity_.assign(values, 0);
@@ -22,56 +19,40 @@ LeanStructure<Batch>::LeanStructure(const Model& model, double step)
   for (const auto& initial : model.initial_velocities)
     for (const Index node : initial.nodes) Vector3::Map(&velocity_[3 * node]) = initial.velocity;
   for (const double m : model.node_masses) inverse_mass_.insert(inverse_mass_.end(), 3, 1 / m);
-  slots_.resize(3 * static_cast<std::size_t>(elements_.slots()));
-  sums_.resize(static_cast<std::size_t>(core::block_count(static_cast<std::int64_t>(values))));
-  const auto run_of = [](Index node, int sign) { return 2 * static_cast<std::size_t>(node) + (sign < 0); };
-  incidence_begin_.assign(2 * static_cast<std::size_t>(model.nodes()) + 1, 0);
-  elements_.for_each_incidence(
-      [&](Index node, Index, int sign) { ++incidence_begin_[run_of(node, sign) + 1]; });
-  std::partial_sum(incidence_begin_.begin(), incidence_begin_.end(), incidence_begin_.begin());
-  incidence_.resize(static_cast<std::size_t>(incidence_begin_.back()));
-  std::vector<Index> next(incidence_begin_.begin(), incidence_begin_.end() - 1);
-  elements_.for_each_incidence(
-      [&](Index node, Index slot, int sign) { incidence_[next[run_of(node, sign)]++] = 3 * slot; });
+  sum_.reserve(static_cast<std::int64_t>(values));
 }
 
-template <class Batch>
-void LeanStructure<Batch>::step() {
-  core::parallel_blocks(elements_.size(), [&](core::Block block, std::int64_t) {
-    elements_.internal_force(displacement_, slots_, block);
-  });
-  sum_at_nodes();
-  hold_supports();
-  if (!std::isfinite(move_nodes())) throw std::runtime_error("velocities overflow");
+void LeanStructure::step() {
+  const double kick = 0.5 * (previous_step_ + step_);
+  assembly_.internal_force(displacement_, force_);
+  hold_supports(kick);
+  if (!std::isfinite(move_nodes(kick))) throw std::runtime_error("velocities overflow");
   previous_step_ = step_;
 }
 
-template <class Batch>
-void LeanStructure<Batch>::sum_at_nodes() noexcept {
-  core::parallel_for(model_.nodes(), [&](std::int64_t node) {
-    const Index* run = &incidence_begin_[2 * static_cast<std::size_t>(node)];
-    Vector3 sum = Vector3::Zero();
-    for (Index k = run[0]; k < run[1]; ++k) sum += Vector3::Map(&slots_[incidence_[k]]);
-    for (Index k = run[1]; k < run[2]; ++k) sum -= Vector3::Map(&slots_[incidence_[k]]);
-    Vector3::Map(&force_[3 * static_cast<std::size_t>(node)]) = -sum;
-  });
-}
-
-template <class Batch>
-void LeanStructure<Batch>::hold_supports() noexcept {
-  for_each_support(model_, [&](const Support& support, std::size_t dof, std::size_t offset) {
-    for (std::size_t c = 0; c < 3; ++c) {
-      if (!support.fixed[c]) continue;
-      reactions_[offset + c] = -force_[dof + c];
-      force_[dof + c] = 0;
+void LeanStructure::hold_supports(double kick) noexcept {
+  std::size_t offset = 0;
+  for (const Support& support : model_.supports)
+    for (const Index node : support.nodes) {
+      const auto dof = 3 * static_cast<std::size_t>(node);
+      const double mass = model_.node_masses[static_cast<std::size_t>(node)];
+      for (std::size_t c = 0; c < 3; ++c) {
+        if (!support.fixed[c]) continue;
+        const double needed = mass * -velocity_[dof + c] / kick;
+        reactions_[offset + c] = needed - force_[dof + c];
+        force_[dof + c] = needed;
+      }
+      offset += 3;
     }
-  });
 }
 
-template <class Batch>
-double LeanStructure<Batch>::move_nodes() noexcept {
+double LeanStructure::move_nodes(double kick) noexcept {
+  return sum_.of_blocks(static_cast<std::int64_t>(velocity_.size()), 0.0,
+                        [&](core::Block values) { return move_nodes(kick, values); });
+}
+
+double LeanStructure::move_nodes(double kick, core::Block values) noexcept {
   constexpr std::int64_t width = 8;
-  const double kick = 0.5 * (previous_step_ + step_);
   double* __restrict velocity = velocity_.data();
   double* __restrict displacement = displacement_.data();
   const double* __restrict force = force_.data();
@@ -82,21 +63,14 @@ double LeanStructure<Batch>::move_nodes() noexcept {
     displacement[i] += step_ * after;
     return after * after;
   };
-  core::parallel_blocks(static_cast<std::int64_t>(velocity_.size()), [&](core::Block block, std::int64_t at) {
-    std::array<double, width> lanes{};
-    std::int64_t i = block.begin;
-    for (; i + width <= block.end; i += width)
-      for (std::int64_t lane = 0; lane < width; ++lane) lanes[lane] += advance(i + lane);
-    double sum = 0;
-    for (; i < block.end; ++i) sum += advance(i);
-    for (const double lane : lanes) sum += lane;
-    sums_[static_cast<std::size_t>(at)] = sum;
-  });
-  return std::accumulate(sums_.begin(), sums_.end(), 0.0);
+  std::array<double, width> sums{};
+  std::int64_t i = values.begin;
+  for (; i + width <= values.end; i += width)
+    for (std::int64_t lane = 0; lane < width; ++lane) sums[lane] += advance(i + lane);
+  double sum = 0;
+  for (; i < values.end; ++i) sum += advance(i);
+  for (const double lane : sums) sum += lane;
+  return sum;
 }
-
-template class LeanStructure<CableBatch>;
-template class LeanStructure<SlidingCableBatch>;
-template class LeanStructure<PlainMembraneBatch>;
 
 }  // namespace talus::test

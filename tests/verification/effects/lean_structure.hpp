@@ -3,30 +3,28 @@
 #include <vector>
 
 #include "core/parallel.hpp"
-#include "fem_solver/model/model.hpp"
+#include "fem_solver/assembly/assembly.hpp"
 #include "tests/verification/effects/counting.hpp"
 
 namespace talus::test {
 
-/// The explicit structural solver as it would be if it knew one part of one kind of element, held at nodes
-/// that do not move, and nothing else: no gravity, damping, loads, prescribed motion, slides, interface, watch.
-template <class Batch>
+/// The explicit structural solver as it would be if it knew elements, held at nodes that do not move, and
+/// nothing else: no gravity, damping, loads, prescribed motion, slides, interface, watch, works, clock.
 class LeanStructure final : public Stepper {
  public:
-  /// @pre the model's only part is made of such elements
   LeanStructure(const fem::Model& model, double step);
   void step() override;
 
  private:
-  void sum_at_nodes() noexcept;
-  void hold_supports() noexcept;
-  double move_nodes() noexcept;
+  void hold_supports(double kick) noexcept;
+  double move_nodes(double kick) noexcept;
+  double move_nodes(double kick, core::Block values) noexcept;
 
   const fem::Model& model_;
-  const Batch& elements_;
+  fem::Assembly assembly_;
   double step_, previous_step_ = 0;
-  std::vector<double> displacement_, velocity_, force_, reactions_, inverse_mass_, slots_, sums_;
-  std::vector<fem::Index> incidence_begin_, incidence_;
+  std::vector<double> displacement_, velocity_, force_, reactions_, inverse_mass_;
+  core::OrderedSum<> sum_;
 };
 
 }  // namespace talus::test

@@ -66,7 +66,7 @@ TEST_CASE("the facts of a result are the largest stresses of all frames, in any 
   REQUIRE(facts.parts.size() == 2);
   const PartFacts &triangle = facts.parts[0], &wires = facts.parts[1];
   CHECK(triangle.name == "sheet");
-  CHECK(triangle.tension == Approx(400));      // the mean of 100 Pa and the shear of 300 Pa
+  CHECK(triangle.tension == Approx(400));  // the mean of 100 Pa and the shear of 300 Pa
   CHECK(triangle.compression == Approx(200));
   CHECK(triangle.ever_wrinkled);
   CHECK(wires.tension == 2001);  // 2000 and the frame's number

@@ -75,8 +75,8 @@ TEST_CASE("an effect that is in may be left out where its energy is below a mill
 TEST_CASE("friction may be left out only where neither spin nor friction takes energy") {
   const double threshold = negligible_energy * impact;
   const auto finds = [&](double spin, double friction, bool present = true) {
-    ResultFacts facts = facts_with({{"particles.kinetic_rotation_J", spin * threshold},
-                                    {"contacts.friction_J", friction * threshold}});
+    ResultFacts facts = facts_with(
+        {{"particles.kinetic_rotation_J", spin * threshold}, {"contacts.friction_J", friction * threshold}});
     add_effect(facts, "particles", "friction", present);
     return !friction_that_turns_nothing(facts).empty();
   };
@@ -165,13 +165,13 @@ TEST_CASE("energy that the coupling makes, or that the balance misses, is told f
   CHECK(energy_that_does_not_close(facts).size() == 1);
 }
 
-TEST_CASE("the explanation says every stage's share of the time, the largest first, and every line's energy") {
+TEST_CASE(
+    "the explanation says every stage's share of the time, the largest first, and every line's energy") {
   ResultFacts facts = facts_with({{"contacts.damping_J", 250}});
   facts.summary["energy"]["kinds"]["contacts.damping_J"] = "dissipated";
   CHECK_THAT(explanation(facts), Catch::Contains("time: not measured"));
-  facts.summary["last"] = {{"particles_time.motion_s", 0.5},
-                           {"structure_time.elements_of_net_s", 1.0},
-                           {"net.height_m", 9.0}};
+  facts.summary["last"] = {
+      {"particles_time.motion_s", 0.5}, {"structure_time.elements_of_net_s", 1.0}, {"net.height_m", 9.0}};
   const std::string text = explanation(facts);
   const auto elements = text.find(" 50.0 %  structure  elements of net\n"),
              motion = text.find(" 25.0 %  particles  motion\n");
@@ -179,7 +179,8 @@ TEST_CASE("the explanation says every stage's share of the time, the largest fir
   CHECK(motion != std::string::npos);
   CHECK(elements < motion);
   CHECK_THAT(text, Catch::Contains("      25 %           250 J  dissipated contacts.damping_J\n"));
-  CHECK_THAT(text, Catch::Contains("may be left out\n  nothing found\nseems to be missing\n  nothing found\n"));
+  CHECK_THAT(text,
+             Catch::Contains("may be left out\n  nothing found\nseems to be missing\n  nothing found\n"));
   CHECK_THAT(text, Catch::Contains("has no frames"));
 }
 

@@ -125,9 +125,10 @@ TEST_CASE("points that are complete are not run again, and those of a changed sc
   CHECK(std::filesystem::last_write_time(count) != written);
 }
 
-TEST_CASE("a method may have a scene of its own, and a run that is only there for the reference is timed once") {
-  const Study study(replaced(study_text, "first: {set: [{key: model.order, value: 1}]}",
-                             "first: {base: other.yaml}"));
+TEST_CASE(
+    "a method may have a scene of its own, and a run that is only there for the reference is timed once") {
+  const Study study(
+      replaced(study_text, "first: {set: [{key: model.order, value: 1}]}", "first: {base: other.yaml}"));
   study.folder.add("other.yaml", "model: {step: 1 s, order: 3}\n");
   study::run_study(study.request());
   const json result = study.result();
