@@ -11,8 +11,8 @@ import sys
 import tempfile
 
 ROOT, BUILD, PAGE = map(pathlib.Path, sys.argv[1:4])
-REPEATS = 5
-COUNTED_WINDOWS = 400
+REPEATS = 3
+COUNTED_WINDOWS = 200
 
 GRAVITY_FREE = "particles: {gravity: ~}"
 # Scene, effect, what leaves it out (or, where the scene has not got it, what puts it in).

@@ -119,7 +119,6 @@ def changed(base: str, change: str) -> tuple[str, str, int]:
     return program, f"extends: {file}\n{change}\n", steps
 
 
-@unittest.skipUnless(shutil.which("valgrind"), "valgrind is not installed")
 class OnlyWhatTheSceneNames(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -155,4 +154,6 @@ class OnlyWhatTheSceneNames(unittest.TestCase):
 
 
 if __name__ == "__main__":
+    if not shutil.which("valgrind"):
+        sys.exit(77)
     unittest.main(argv=sys.argv[:1])
