@@ -28,7 +28,6 @@ EFFECTS = [
     ("cable_net", "stage times", "with", "output: {stage_times: {}}"),
     ("net_sliding_edges", "friction of the ropes", "with",
      "structure: {parts: {%s}}" % ", ".join("%s: {sliding_cable: {friction: 0.1}}" % side for side in ("south", "east", "north", "west"))),
-    ("membrane_tension_field", "tension field", "without", "structure: {parts: {net: {membrane: {tension_field: ~}}}}"),
     ("rocks_and_stones", "gravity on the stones", "without", GRAVITY_FREE),
     ("rocks_and_stones", "gates", "without", "particles: {gates: ~}"),
     ("rocks_and_stones", "rolling resistance", "without",
