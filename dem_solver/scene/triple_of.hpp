@@ -6,6 +6,8 @@
 namespace talus::dem {
 
 /// From the reader's vectors to the solver's.
-inline Triple<double> triple_of(const core::Vector3& v) { return {v.x(), v.y(), v.z()}; }
+inline Triple<double> triple_of(const core::Vector3& v) {
+  return {v.x(), v.y(), v.z()};
+}
 
 }  // namespace talus::dem
