@@ -1,14 +1,16 @@
 #!/usr/bin/env bash
 # Particle-steps per second of a settling bed, one JSON object a line.
-#   ./talus bench settling [--n N] [--steps N] [--settle N] [--threads N] [--peers | --scaling]
+#   ./talus bench settling [--n N] [--steps N] [--settle N] [--threads N] [--peers | --scaling | --speedup]
 # --peers runs LIGGGHTS and LAMMPS (Debian packages liggghts and lammps) on the same bed, material and step, one after the other, and
 # prints how many times faster Talus is. Rates fall as contacts form, so only equal --n, --settle and --steps compare; on a busy machine
 # read the ratios, and repeat.
 # --scaling runs 10 000, 100 000 and 1 000 000 spheres for the same steps instead, and prints the time of a particle-step over that of the first.
+# --speedup runs 10 000 and 50 000 spheres with one thread and with --threads (2), three times in turn, and prints the ratio of the medians beside
+# what the machine gives to arithmetic alone and to copying alone.
 set -euo pipefail
 here=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")" && pwd)
 program=$TALUS_BUILD_DIR/bin/bench_settling
-n=10000 steps=5000 settle=0 threads=1 peers=no scaling=no
+n=10000 steps=5000 settle=0 threads=1 peers=no scaling=no speedup=no
 while [ $# -gt 0 ]; do
   case $1 in
     --n) n=$2; shift 2 ;;
@@ -17,6 +19,7 @@ while [ $# -gt 0 ]; do
     --threads) threads=$2; shift 2 ;;
     --peers) peers=yes; shift ;;
     --scaling) scaling=yes; shift ;;
+    --speedup) speedup=yes; shift ;;
     *) echo "settling: unknown option $1" >&2; exit 2 ;;
   esac
 done
@@ -33,6 +36,24 @@ if [ $scaling = yes ]; then
     rate=$(number_of "$line" particle_steps_per_s)
     awk -v n=$n -v first="${first_rate:=$rate}" -v rate="$rate" \
       'BEGIN { printf "{\"n\":%d,\"time_of_a_particle_step_over_first\":%.3f}\n", n, first / rate }'
+  done
+  exit 0
+fi
+
+rate_of() { number_of "$("$program" --n "$1" --steps "$steps" --settle "$settle" --threads "$2")" particle_steps_per_s; }
+
+if [ $speedup = yes ]; then
+  [ "$threads" -gt 1 ] || threads=2
+  for n in 10000 50000; do
+    one=() several=()
+    for _ in 1 2 3; do
+      one+=("$(rate_of $n 1)")
+      several+=("$(rate_of $n "$threads")")
+    done
+    median() { printf '%s\n' "$@" | sort -g | sed -n 2p; }
+    machine=$("$program" --machine --threads "$threads")
+    awk -v n=$n -v threads="$threads" -v one="$(median "${one[@]}")" -v several="$(median "${several[@]}")" -v machine="${machine#*,}" \
+      'BEGIN { printf "{\"n\":%d,\"threads\":%d,\"particle_steps_per_s\":%.0f,\"speedup\":%.2f,%s\n", n, threads, several, several / one, machine }'
   done
   exit 0
 fi

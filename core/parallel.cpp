@@ -17,4 +17,13 @@ int thread_count() noexcept {
   return threads;
 }
 
+void run_tasks(const Tasks& tasks, const void* context, void (*work)(const void*, std::int64_t)) {
+  if (tasks.threads == 1 || tasks.count <= 1) {
+    for (std::int64_t task = 0; task < tasks.count; ++task) work(context, task);
+    return;
+  }
+#pragma omp parallel for schedule(dynamic) num_threads(tasks.threads)
+  for (std::int64_t task = 0; task < tasks.count; ++task) work(context, task);
+}
+
 }  // namespace talus::core

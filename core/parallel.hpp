@@ -59,6 +59,30 @@ void parallel_for(std::int64_t items, Body&& body) {
   });
 }
 
+/// Tasks of a loop and the threads that share them.
+struct Tasks {
+  std::int64_t count = 0;
+  int threads = 1;
+};
+
+/// Calls work(context, task) for every task; threads take the next one as they become free. One thread is a
+/// plain loop: an OpenMP region of one thread costs as much as all contacts of a small scene.
+void run_tasks(const Tasks& tasks, const void* context, void (*work)(const void*, std::int64_t));
+
+/// Calls body(task) for every task, for tasks of unequal length. @pre body is noexcept in effect
+template <class Body>
+void parallel_tasks(const Tasks& tasks, const Body& body) {
+  run_tasks(tasks, &body, [](const void* of, std::int64_t task) { (*static_cast<const Body*>(of))(task); });
+}
+
+/// Calls body(Block) for as many runs of neighbouring items as there are threads.
+template <class Body>
+void parallel_runs(const Tasks& items, const Body& body) {
+  const std::int64_t length = std::max<std::int64_t>(1, block_count(items.count, items.threads));
+  parallel_tasks({block_count(items.count, length), items.threads},
+                 [&](std::int64_t run) { body(block_at(run, items.count, length)); });
+}
+
 /// The sum of term(item), the same bits for any number of threads. Keeps its memory between sums; reserve()
 /// before a loop that must not allocate.
 template <class Value = double>

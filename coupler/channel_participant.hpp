@@ -42,6 +42,8 @@ class ChannelParticipant final : public Participant {
   std::span<double> field(std::size_t group, std::size_t field) override {
     return output_arrays_.field(outputs(), group, field);
   }
+  std::span<double> table(std::size_t table) override { return output_arrays_.table(outputs(), table); }
+  double& table_rows(std::size_t table) override { return output_arrays_.table_rows(outputs(), table); }
 
  private:
   enum class Stage { joined, surface_known, declared, idle, answering, finished };

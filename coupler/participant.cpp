@@ -1,5 +1,6 @@
 #include "coupler/participant.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 
@@ -50,9 +51,28 @@ void checkpoint_state(const Command& command, std::span<std::byte> state) {
   }
 }
 
+namespace {
+
+/// Of events only those that are new.
+void report_table(Participant& participant, const core::OutputSource& source, std::size_t table) {
+  const core::TableDescription& description = source.description().tables[table];
+  const std::int64_t rows = source.table_rows(table);
+  const auto there = static_cast<std::int64_t>(participant.table_rows(table));
+  const std::int64_t first = description.kind == core::TableKind::events ? std::min(there, rows) : 0;
+  const std::size_t columns = description.columns.size();
+  source.fill_table(table, first,
+                    participant.table(table).subspan(static_cast<std::size_t>(first) * columns,
+                                                     static_cast<std::size_t>(rows - first) * columns));
+  participant.table_rows(table) = static_cast<double>(rows);
+}
+
+}  // namespace
+
 void report(Participant& participant, const Command& command, const core::OutputSource& source) {
   source.fill_probes(participant.probes());
   source.fill_ledger(participant.ledger());
+  for (std::size_t table = 0; table < source.description().tables.size(); ++table)
+    report_table(participant, source, table);
   if (!command.fields) return;
   const auto& groups = source.description().groups;
   for (std::size_t group = 0; group < groups.size(); ++group) {

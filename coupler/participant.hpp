@@ -144,6 +144,8 @@ class Participant {
   virtual std::span<double> ledger() = 0;
   virtual std::span<double> positions(std::size_t group) = 0;
   virtual std::span<double> field(std::size_t group, std::size_t field) = 0;
+  virtual std::span<double> table(std::size_t table) = 0;  ///< room for all rows it may ever have
+  virtual double& table_rows(std::size_t table) = 0;       ///< how many it has
 };
 
 /// The whole coupled life of a program: joins, serves, and tells the coupler what `serve` throws, which then

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "core/errors.hpp"
+#include "core/parallel.hpp"
 #include "dem_solver/collision/size_classes.hpp"
 #include "dem_solver/integration/leapfrog.hpp"
 
@@ -11,12 +12,15 @@ namespace talus::dem {
 
 namespace {
 
-/// A thicker skin lengthens every list, a thinner one is used up in fewer steps; measured flat between 0.15
-/// and 0.3 for a settling bed.
-constexpr double skin_in_radii = 0.2;
+/// A thicker skin lengthens every list, a thinner one is used up in fewer steps.
+struct SkinRule {
+  static constexpr double first = 0.1, thinnest = 0.05, thickest = 0.5;  // in radii of the most frequent size
+  static constexpr double wanted_steps = 100;                            ///< from one search to the next
+  static constexpr double most_change = 2;                               ///< from one list to the next
+};
 
-double default_skin(const Spheres& spheres) {
-  return skin_in_radii * 0.5 * SizeClasses(spheres, 0).main_cell();
+double main_radius(const Spheres& spheres) {
+  return 0.5 * SizeClasses(spheres, 0).main_cell();
 }
 
 }  // namespace
@@ -36,9 +40,12 @@ ParticleSolver::ParticleSolver(ParticleModel model)
     implicit_contact_ = {.control = *model.implicit_contact, .gravity = model.gravity};
   spheres_.add(model.spheres, law_.rotation());
   rocks_ = Rocks(model.rocks, model.spheres);
-  if (skin_ <= 0 && spheres_.size() > 0) skin_ = default_skin(spheres_);
+  if (skin_ <= 0 && spheres_.size() > 0) {
+    main_radius_ = main_radius(spheres_);
+    skin_ = SkinRule::first * main_radius_;
+  }
   place_ = spheres_.places();
-  if (!gates_.empty()) gates_.watch(spheres_, rocks_);
+  if (!gates_.empty()) gates_.watch_all({spheres_, rocks_, time()}, skin_);
   gravity_level_at_start_ = gravity_work_level();
 }
 
@@ -58,10 +65,10 @@ void ParticleSolver::step() {
   evaluate_contacts();
   core::lap(stage_clock_, with_boundary);
   move_spheres();
-  if (!gates_.empty()) gates_.watch(spheres_, rocks_);
   previous_step_ = step_;
   core::lap(stage_clock_, motion);
   ++steps_done_;
+  if (!gates_.empty()) gates_.watch_near({spheres_, rocks_, time()});
 }
 
 void ParticleSolver::set_clock(const Clock& clock) noexcept {
@@ -71,20 +78,14 @@ void ParticleSolver::set_clock(const Clock& clock) noexcept {
 }
 
 void ParticleSolver::find_neighbours() {
-  if (spheres_.size() == 0) return;
-  const double boundary_motion =
-      boundary_.empty() || !listed_ ? 0 : boundary_list_.boundary_motion(boundary_);
-  const auto is_used_up = [&] { return 2 * travelled_ >= skin_ || travelled_ + boundary_motion >= skin_; };
-  if (listed_ && !is_used_up()) return;
-  // The bound adds up the largest speeds of different spheres; what they really moved is often far less.
-  if (listed_) travelled_ = largest_motion();
-  if (listed_ && !is_used_up()) return;
-
+  if (spheres_.size() == 0 || (listed_ && !lists_are_used_up())) return;
+  if (listed_) skin_ = next_skin();
   const PairList::Rebuilt rebuilt = pair_list_.rebuild(spheres_, skin_, threads_);
-  const std::vector<SlotMove> plane_moves = plane_list_.rebuild(planes_, spheres_, rebuilt.new_place, skin_);
+  const std::vector<SlotMove> plane_moves =
+      plane_list_.rebuild(planes_, spheres_, rebuilt.new_place, wall_skin());
   std::vector<SlotMove> boundary_moves;
   if (!boundary_.empty())
-    boundary_moves = boundary_list_.rebuild(boundary_, spheres_, rebuilt.new_place, skin_);
+    boundary_moves = boundary_list_.rebuild(boundary_, spheres_, rebuilt.new_place, wall_skin());
   const ContactStage stage = contact_stage();
   std::visit(
       [&](auto& model) {
@@ -93,9 +94,31 @@ void ParticleSolver::find_neighbours() {
       contacts_);
   place_ = spheres_.places();
   listed_position_ = spheres_.position;
-  travelled_ = 0;
+  moved_ = {};
   listed_ = true;
+  listed_at_ = steps_done_;
   ++searches_;
+  // Twice: the lists serve until a sphere has moved that far, and that is seen a step later.
+  if (!gates_.empty()) gates_.watch_all({spheres_, rocks_, time()}, 2 * wall_skin());
+}
+
+bool ParticleSolver::lists_are_used_up() noexcept {
+  const double boundary_motion = boundary_.empty() ? 0 : boundary_list_.boundary_motion(boundary_);
+  const auto used_up = [&] {
+    return moved_.towards_another >= skin_ || moved_.alone + boundary_motion >= wall_skin();
+  };
+  if (!used_up()) return false;
+  // The bound adds up the largest speeds of different spheres; what they really moved is often far less.
+  moved_ = measured_motion();
+  return used_up();
+}
+
+double ParticleSolver::next_skin() const noexcept {
+  if (main_radius_ == 0) return skin_;
+  const auto lasted = static_cast<double>(std::max<std::int64_t>(1, steps_done_ - listed_at_));
+  const double change =
+      std::clamp(SkinRule::wanted_steps / lasted, 1 / SkinRule::most_change, SkinRule::most_change);
+  return std::clamp(change * skin_, SkinRule::thinnest * main_radius_, SkinRule::thickest * main_radius_);
 }
 
 void ParticleSolver::fit_to_state() {
@@ -111,22 +134,31 @@ void ParticleSolver::fit_to_state() {
   if (listed_) std::visit([&](auto& model) { model.rebuild(stage, {pairs, planes, boundary}); }, contacts_);
 }
 
-double ParticleSolver::largest_motion() const noexcept {
-  double largest = 0;
+ParticleSolver::Motion ParticleSolver::measured_motion() const noexcept {
+  const auto moved = [this](Index i) {
+    return triple<double>(spheres_.position[i]) - triple<double>(listed_position_[i]);
+  };
+  Triple<double> sum;
+  for (Index i = 0; i < spheres_.size(); ++i) sum = sum + moved(i);
+  const Triple<double> mean = (1.0 / spheres_.size()) * sum;
+  // Two spheres approach each other by what they moved against the mean, which no pair notices.
+  double alone = 0, most = 0, second = 0;  // squared
   for (Index i = 0; i < spheres_.size(); ++i) {
-    const Triple<double> moved = triple<double>(spheres_.position[i]) - triple<double>(listed_position_[i]);
-    largest = std::max(largest, dot(moved, moved));
+    const Triple<double> own = moved(i), against_mean = own - mean;
+    const double squared = dot(against_mean, against_mean);
+    alone = std::max(alone, dot(own, own));
+    second = std::max(second, std::min(most, squared));
+    most = std::max(most, squared);
   }
-  return std::sqrt(largest);
+  return {.alone = std::sqrt(alone), .towards_another = std::sqrt(most) + std::sqrt(second)};
 }
 
 void ParticleSolver::clear_loads() noexcept {
   const bool turn = spheres_.rotates();
-#pragma omp parallel for schedule(static) num_threads(threads_) if (threads_ > 1)
-  for (Index i = 0; i < spheres_.size(); ++i) {
-    spheres_.force[i] = {};
-    if (turn) spheres_.torque[i] = {};
-  }
+  core::parallel_runs({spheres_.size(), threads_}, [&](core::Block run) {
+    std::fill(spheres_.force.begin() + run.begin, spheres_.force.begin() + run.end, Row{});
+    if (turn) std::fill(spheres_.torque.begin() + run.begin, spheres_.torque.begin() + run.end, Row{});
+  });
 }
 
 ContactStage ParticleSolver::contact_stage() noexcept {
@@ -168,7 +200,8 @@ void ParticleSolver::move_spheres() {
     motion.finite = motion.finite && std::isfinite(speed);
   }
   if (!motion.finite) report_not_finite();
-  travelled_ += motion.largest_speed * step_;
+  moved_.alone += motion.largest_speed * step_;
+  moved_.towards_another += 2 * motion.largest_speed * step_;
 }
 
 void ParticleSolver::report_not_finite() const {

@@ -28,7 +28,7 @@ struct ParticleModel {
   Triple<double> gravity;                                       ///< m/s^2
   double step = 0;                                              ///< s
   std::optional<ImplicitVelocities::Control> implicit_contact;  ///< with the boundary; absent: explicit
-  double skin = 0;  ///< m; 0: a fifth of the most frequent size class's radius
+  double skin = 0;  ///< m; of the neighbour lists; 0: follows from how fast the spheres move
   int threads = 1;
   std::vector<Gate> gates;
 };
@@ -107,8 +107,17 @@ class ParticleSolver {
   void fit_to_state();
 
  private:
+  /// Bounds of how far spheres have moved since the lists were built, m.
+  struct Motion {
+    double alone = 0;            ///< of any sphere
+    double towards_another = 0;  ///< of any two towards each other
+  };
   void find_neighbours();
-  double largest_motion() const noexcept;
+  bool lists_are_used_up() noexcept;
+  Motion measured_motion() const noexcept;
+  double next_skin() const noexcept;
+  /// m; of the lists of planes and boundary, towards which all spheres may move together.
+  double wall_skin() const noexcept { return 2 * skin_; }
   void clear_loads() noexcept;
   void evaluate_contacts() noexcept;
   void move_spheres();
@@ -129,7 +138,8 @@ class ParticleSolver {
   double step_ = 0;           ///< s; of the step to come
   double previous_step_ = 0;  ///< s; 0 before the first
   double kick_ = 0;           ///< s; of the last step
-  double skin_ = 0;
+  double skin_ = 0;           ///< m; of the list of pairs
+  double main_radius_ = 0;    ///< m; of the most frequent size class; 0: the skin is given
   std::optional<ImplicitContact> implicit_contact_;
   int threads_ = 1;
 
@@ -139,8 +149,9 @@ class ParticleSolver {
   AnyContactModel contacts_;
   std::vector<Index> place_;
   std::vector<Row> listed_position_;  ///< of the spheres when the lists were built
-  double travelled_ = 0;              ///< m; no sphere has moved further since
+  Motion moved_;
   bool listed_ = false;
+  std::int64_t listed_at_ = 0;  ///< step
   std::int64_t steps_done_ = 0;
   double clock_time_ = 0;
   std::int64_t clock_steps_ = 0;
@@ -171,8 +182,10 @@ void ParticleSolver::visit_state(Self& self, const Visitor& visit) {
   visit("law", self.law_);
   visit("place", self.place_);
   visit("listed_position", self.listed_position_);
-  visit("travelled", self.travelled_);
+  visit("moved", self.moved_);
   visit("listed", self.listed_);
+  visit("listed_at", self.listed_at_);
+  visit("skin", self.skin_);
   visit("steps_done", self.steps_done_);
   visit("clock_time", self.clock_time_);
   visit("clock_steps", self.clock_steps_);

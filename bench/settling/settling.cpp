@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <malloc.h>
 
 #include <CLI/CLI.hpp>
 #include <chrono>
@@ -6,6 +7,7 @@
 #include <string>
 
 #include "bench/settling/bed.hpp"
+#include "bench/settling/machine.hpp"
 #include "core/program/command_line.hpp"
 
 /// Times the settling of a bed of spheres and prints one JSON object.
@@ -17,6 +19,7 @@ struct Options {
   std::int64_t count = 10'000, steps = 5'000, settle = 0;
   int threads = 1;
   std::string write_data;
+  bool machine = false;
 };
 
 double mean_height(const dem::Spheres& spheres) {
@@ -38,6 +41,13 @@ double contacts_a_sphere(const dem::ParticleSolver& solver) {
   return 2 * touching / solver.spheres().size();
 }
 
+/// B; what this program's objects take, allocator's overhead included. (The process holds more: freed memory,
+/// code, stacks, which with few spheres is as much again.)
+double allocated() {
+  const struct mallinfo2 info = mallinfo2();
+  return static_cast<double>(info.uordblks + info.hblkhd);
+}
+
 /// B; a line of /proc/self/status: what the process holds now (VmRSS) or held at most (VmHWM).
 double process_memory(const std::string& line) {
   std::ifstream status("/proc/self/status");
@@ -50,8 +60,17 @@ double process_memory(const std::string& line) {
   return 0;
 }
 
+core::ExitCode print_machine(int threads) {
+  const bench::MachineSpeedup speedup = bench::measure_machine(threads);
+  fmt::print(
+      "{{\"threads\":{},\"arithmetic_speedup\":{:.2f},\"copy_speedup\":{:.2f},\"copy_gb_per_s\":{:.1f}}}\n",
+      threads, speedup.arithmetic, speedup.copy, speedup.copy_gb_per_s);
+  return core::ExitCode::success;
+}
+
 core::ExitCode run(const Options& options) {
-  const double memory_before = process_memory("VmRSS");
+  if (options.machine) return print_machine(options.threads);
+  const double allocated_before = allocated(), memory_before = process_memory("VmRSS");
   bench::Bed bed = bench::make_bed(options.count);
   if (!options.write_data.empty()) {
     bench::write_data_file(bed, options.write_data);
@@ -70,10 +89,12 @@ core::ExitCode run(const Options& options) {
       "{{\"peer\":\"talus\",\"n\":{},\"steps\":{},\"settle\":{},\"threads\":{},\"wall_s\":{:.3f},\"particle_"
       "steps_per_s\":{:.0f},"
       "\"mean_z_m\":{:.5f},\"kinetic_J\":{:.5g},\"mean_contacts\":{:.3f},\"searches\":{},"
-      "\"bytes_per_sphere\":{:.0f},\"peak_bytes_per_sphere\":{:.0f}}}\n",
+      "\"bytes_per_sphere\":{:.0f},\"process_bytes_per_sphere\":{:.0f},\"peak_process_bytes_per_sphere\":{:."
+      "0f}}}\n",
       options.count, options.steps, options.settle, options.threads, wall, rate,
       mean_height(solver.spheres()), kinetic_energy(solver.spheres()), contacts_a_sphere(solver),
       solver.searches() - searches_before,
+      (allocated() - allocated_before) / static_cast<double>(options.count),
       (process_memory("VmRSS") - memory_before) / static_cast<double>(options.count),
       (process_memory("VmHWM") - memory_before) / static_cast<double>(options.count));
   return core::ExitCode::success;
@@ -90,5 +111,7 @@ int main(int argc, char** argv) {
   app.add_option("--threads", options.threads, "threads")->check(CLI::PositiveNumber);
   app.add_option("--write-data", options.write_data,
                  "write the bed as a LIGGGHTS data file and print the box's side instead");
+  app.add_flag("--machine", options.machine,
+               "print what so many threads gain on this machine at best instead");
   return core::run_main(app, argc, argv, [&] { return run(options); });
 }

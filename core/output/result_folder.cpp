@@ -5,6 +5,8 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <fstream>
+#include <nlohmann/json.hpp>
 
 #include "core/errors.hpp"
 
@@ -37,7 +39,19 @@ int locked(const fs::path& path) {
   return descriptor;
 }
 
+/// The files of an earlier result's tables; none where its summary cannot be read.
+std::vector<std::string> table_files(const fs::path& path) {
+  std::vector<std::string> names;
+  std::ifstream file(path / "summary.json");
+  const auto summary = nlohmann::json::parse(file, nullptr, false);
+  if (!summary.is_object() || !summary.contains("tables")) return names;
+  for (const auto& [name, table] : summary["tables"].items())
+    if (fs::path(name).filename() == name) names.push_back(ResultFolder::table_file(name));
+  return names;
+}
+
 void remove_result(const fs::path& path) {
+  for (const auto& name : table_files(path)) fs::remove(path / name);
   for (const auto& name : ResultFolder::file_names()) {
     fs::remove(path / name);
     fs::remove(path / (name + ".part"));

@@ -11,7 +11,8 @@ class ResultFolder {
  public:
   enum class Existing { refuse, replace };
 
-  /// Makes the folder. `replace` removes the files of an earlier result and leaves all others alone.
+  /// Makes the folder. `replace` removes the files of an earlier result, those of its tables included, and
+  /// leaves all others alone.
   /// @throws ConfigError where something is there already (and may not be replaced), is no folder, or another
   /// run writes to it.
   ResultFolder(const std::filesystem::path& path, Existing existing);
@@ -21,8 +22,9 @@ class ResultFolder {
 
   const std::filesystem::path& path() const { return path_; }
 
-  /// The names of the files a result may consist of.
+  /// The names of the files a result may consist of, besides those of its tables, which summary.json lists.
   static const std::vector<std::string>& file_names();
+  static std::string table_file(const std::string& table) { return table + ".csv"; }
 
  private:
   std::filesystem::path path_;

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -14,6 +15,7 @@
 #include "core/output/field_index.hpp"
 #include "core/output/field_store.hpp"
 #include "core/output/peaks.hpp"
+#include "core/output/result_tables.hpp"
 #include "core/output/table.hpp"
 
 namespace talus::core {
@@ -23,31 +25,13 @@ using Clock = std::chrono::steady_clock;
 constexpr std::chrono::seconds summary_pause{2};  // between rewritings of the summary of a run in progress
 
 const char* name_of(RunStatus status) {
-  switch (status) {
-    case RunStatus::running:
-      return "running";
-    case RunStatus::finished:
-      return "finished";
-    case RunStatus::interrupted:
-      return "interrupted";
-    case RunStatus::failed:
-      return "failed";
-  }
-  return "";
+  static constexpr std::array names{"running", "finished", "interrupted", "failed"};
+  return names[static_cast<std::size_t>(status)];
 }
 
 const char* name_of(LedgerKind kind) {
-  switch (kind) {
-    case LedgerKind::stored:
-      return "stored";
-    case LedgerKind::dissipated:
-      return "dissipated";
-    case LedgerKind::supplied:
-      return "supplied";
-    case LedgerKind::memo:
-      return "memo";
-  }
-  return "";
+  static constexpr std::array names{"stored", "dissipated", "supplied", "memo"};
+  return names[static_cast<std::size_t>(kind)];
 }
 
 std::string utc_now() {
@@ -96,6 +80,7 @@ struct ResultWriter::Content {
   OutputDescription description;
   CsvFile probe_file;
   CsvFile energy_file;
+  ResultTables tables;
   std::optional<FieldFiles> fields = {};
   LedgerBalance balance;
   Peaks peaks = {};
@@ -115,6 +100,7 @@ struct ResultWriter::Content {
         description(joined(sources)),
         probe_file(o.folder / "probes.csv", columns(description.probes)),
         energy_file(o.folder / "energy.csv", columns(description.ledger, {"error_J", "error_relative"})),
+        tables(o.folder, sources),
         balance(description.ledger) {
     if (o.frame_capacity > 0) fields.emplace(o.folder, description.groups, o.frame_capacity);
     probe_row.resize(1 + description.probes.size());
@@ -213,6 +199,7 @@ struct ResultWriter::Content {
     json["energy"]["error_relative"] = balance.last().error_relative;
     json["energy"]["largest_error_J"] = balance.largest().error;
     json["energy"]["largest_error_relative"] = balance.largest().error_relative;
+    json["tables"] = tables.summary();
     add_columns(json);
     return json;
   }
@@ -248,6 +235,7 @@ void ResultWriter::write_row(double time) {
   c.check_row(c.probe_row, time, c.description.probes);
   c.check_row(c.energy_row, time, c.description.ledger);
   c.append_row(time);
+  c.tables.update(time);
   if (!c.first_time) c.first_time = time;
   if (Clock::now() - c.summary_written > summary_pause) c.write_summary(RunStatus::running, {});
 }

@@ -47,10 +47,21 @@ struct LedgerDescription {
   LedgerKind kind = LedgerKind::stored;
 };
 
+/// What becomes of a table: events only become more and are written to <name>.csv; a distribution has rows
+/// whose values change, and stands in the summary.
+enum class TableKind : std::uint8_t { events, distribution };
+struct TableDescription {
+  std::string name;                  ///< "below"
+  std::vector<std::string> columns;  ///< "time_s", "diameter_m"
+  std::int64_t capacity = 0;         ///< most rows it will ever have
+  TableKind kind = TableKind::events;
+};
+
 struct OutputDescription {
   std::vector<ProbeDescription> probes;
   std::vector<LedgerDescription> ledger;
   std::vector<GroupDescription> groups;
+  std::vector<TableDescription> tables = {};
 };
 
 /// A solver as the writer of results sees it. Calls are made between steps, at equal times for all values.
@@ -64,6 +75,10 @@ class OutputSource {
   virtual void fill_positions(std::size_t group, std::span<double> positions) const = 0;
   /// A field of a group, components of each node or cell in turn.
   virtual void fill_field(std::size_t group, std::size_t field, std::span<double> values) const = 0;
+  /// The rows that a table has now; of events never less than before.
+  virtual std::int64_t table_rows(std::size_t) const { return 0; }
+  /// Its rows from `first` on, the columns of each in turn.
+  virtual void fill_table(std::size_t /*table*/, std::int64_t /*first*/, std::span<double>) const {}
 };
 
 }  // namespace talus::core

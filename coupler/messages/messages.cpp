@@ -99,11 +99,19 @@ core::GroupDescription group_from(const json& j) {
 }
 
 json to_json(const core::OutputDescription& outputs) {
-  json j{{"probes", json::array()}, {"ledger", json::array()}, {"groups", json::array()}};
+  json j{{"probes", json::array()},
+         {"ledger", json::array()},
+         {"groups", json::array()},
+         {"tables", json::array()}};
   for (const auto& probe : outputs.probes) j["probes"].push_back(probe.name);
   for (const auto& line : outputs.ledger)
     j["ledger"].push_back({{"name", line.name}, {"kind", static_cast<int>(line.kind)}});
   for (const auto& group : outputs.groups) j["groups"].push_back(to_json(group));
+  for (const auto& table : outputs.tables)
+    j["tables"].push_back({{"name", table.name},
+                           {"columns", table.columns},
+                           {"capacity", table.capacity},
+                           {"kind", static_cast<int>(table.kind)}});
   return j;
 }
 
@@ -115,6 +123,11 @@ core::OutputDescription outputs_from(const json& j) {
         {.name = line.at("name"), .kind = static_cast<core::LedgerKind>(line.at("kind").get<int>())});
   }
   for (const auto& group : j.at("groups")) outputs.groups.push_back(group_from(group));
+  for (const auto& table : j.at("tables"))
+    outputs.tables.push_back({.name = table.at("name"),
+                              .columns = table.at("columns"),
+                              .capacity = table.at("capacity"),
+                              .kind = static_cast<core::TableKind>(table.at("kind").get<int>())});
   return outputs;
 }
 

@@ -12,6 +12,8 @@ OutputArrays::OutputArrays(const core::OutputDescription& description)
       arrays.fields.push_back(take(field.components * static_cast<std::size_t>(places)));
     }
   }
+  for (const auto& table : description.tables)
+    tables_.push_back(take(1 + static_cast<std::size_t>(table.capacity) * table.columns.size()));
 }
 
 OutputArrays::Part OutputArrays::take(std::size_t count) {

@@ -8,9 +8,9 @@
 
 namespace talus::coupler {
 
-/// Where each output value of a participant stands in its block of output values: probes, ledger, then of
-/// each group its positions and fields. Both sides compute it from the declaration, so only the block itself
-/// is agreed on in shared memory.
+/// Where each output value of a participant stands in its block of output values: probes, ledger, of each
+/// group its positions and fields, then of each table its number of rows and room for all of them. Both sides
+/// compute it from the declaration, so only the block itself is agreed on in shared memory.
 class OutputArrays {
  public:
   OutputArrays() = default;
@@ -24,6 +24,13 @@ class OutputArrays {
   }
   std::span<double> field(std::span<double> block, std::size_t group, std::size_t field) const {
     return part(block, groups_.at(group).fields.at(field));
+  }
+  /// The rows a table has now, as a number that may be set.
+  double& table_rows(std::span<double> block, std::size_t table) const {
+    return block[tables_.at(table).begin];
+  }
+  std::span<double> table(std::span<double> block, std::size_t table) const {
+    return part(block, tables_.at(table)).subspan(1);
   }
 
  private:
@@ -42,6 +49,7 @@ class OutputArrays {
   std::size_t size_ = 0;  // first: the constructor counts in it while it makes the others
   Part probes_, ledger_;
   std::vector<Group> groups_;
+  std::vector<Part> tables_;
 };
 
 }  // namespace talus::coupler

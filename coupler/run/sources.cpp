@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/errors.hpp"
+
 namespace talus::coupler {
 namespace {
 
@@ -36,6 +38,21 @@ void PeerSource::fill_positions(std::size_t group, std::span<double> positions) 
 }
 void PeerSource::fill_field(std::size_t group, std::size_t field, std::span<double> values) const {
   copy(peer_.output_arrays().field(block(), group, field), values);
+}
+
+std::int64_t PeerSource::table_rows(std::size_t table) const {
+  const double rows = peer_.output_arrays().table_rows(block(), table);
+  const core::TableDescription& description = this->description().tables[table];
+  if (rows >= 0 && rows <= static_cast<double>(description.capacity)) return static_cast<std::int64_t>(rows);
+  throw core::TransportError(
+      {.peer = peer_.label(),
+       .waited_for = "a report",
+       .reason = "sent more rows of the table " + description.name + " than it declared"});
+}
+void PeerSource::fill_table(std::size_t table, std::int64_t first, std::span<double> values) const {
+  const std::size_t columns = description().tables[table].columns.size();
+  const auto rows = peer_.output_arrays().table(block(), table);
+  copy(rows.subspan(static_cast<std::size_t>(first) * columns, values.size()), values);
 }
 
 InterfaceSource::InterfaceSource(const Interface& interface, const Peer& particles, const Exchange& exchange)

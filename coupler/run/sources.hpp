@@ -18,6 +18,8 @@ class PeerSource final : public core::OutputSource {
   void fill_ledger(std::span<double> joules) const override;
   void fill_positions(std::size_t group, std::span<double> positions) const override;
   void fill_field(std::size_t group, std::size_t field, std::span<double> values) const override;
+  std::int64_t table_rows(std::size_t table) const override;
+  void fill_table(std::size_t table, std::int64_t first, std::span<double> values) const override;
 
  private:
   std::span<double> block() const { return peer_.array(transport::ArrayName::outputs); }

@@ -107,12 +107,14 @@ class Server {
   }
 
   void add_reactions(std::span<double> force, double share) const {
-    const auto reaction = run_.solver.boundary().reaction();
-    for (std::size_t i = 0; i < force.size() / 3; ++i) {
-      const Row& r = reaction[first_node_ + i];
-      force[3 * i] += share * r.x;
-      force[3 * i + 1] += share * r.y;
-      force[3 * i + 2] += share * r.z;
+    const Boundary& boundary = run_.solver.boundary();
+    for (const Index node : boundary.loaded_nodes()) {
+      if (node < first_node_) continue;
+      const Row& r = boundary.reaction()[node];
+      double* to = force.data() + 3 * static_cast<std::size_t>(node - first_node_);
+      to[0] += share * r.x;
+      to[1] += share * r.y;
+      to[2] += share * r.z;
     }
   }
 

@@ -30,13 +30,20 @@ class Boundary {
 
   bool empty() const noexcept { return features_.empty(); }
   std::span<const Feature> features() const noexcept { return features_; }
-  Index node_count() const noexcept { return static_cast<Index>(position_.size()); }
+  Index node_count() const noexcept { return static_cast<Index>(reaction_.size()); }
   const std::vector<std::string>& part_names() const noexcept { return part_names_; }
 
-  /// Current node positions (m) and velocities (m/s), and the reactions of the last evaluation (N).
-  std::span<const Row> position() const noexcept { return position_; }
-  std::span<const Row> velocity() const noexcept { return velocity_; }
+  /// Where a node is now (m) and how fast (m/s). Put together where it is asked for: contacts are with few
+  /// nodes, and of the others nothing is needed but their displacement.
+  Triple<double> position(Index node) const noexcept {
+    return at(reference_, node) + at(displacement_, node);
+  }
+  Triple<double> velocity(Index node) const noexcept { return at(velocity_, node); }
+  /// m; from the reference state, 3 a node.
+  std::span<const double> displacement() const noexcept { return displacement_; }
+  /// N; of the last evaluation. Zero but for the loaded nodes, which are listed once each.
   std::span<const Row> reaction() const noexcept { return reaction_; }
+  std::span<const Index> loaded_nodes() const noexcept { return loaded_nodes_; }
 
   /// Displacement from the reference state and velocity at two times, 3 values a node, of the nodes from
   /// `first_node` on.
@@ -72,21 +79,32 @@ class Boundary {
   ClosestPoint closest(const Feature& feature, const Triple<double>& p) const noexcept;
   Triple<double> velocity_at(const Feature& feature, const Weights& weights) const noexcept;
 
-  /// m; the largest distance of a node from where it was. @pre since.size() == node_count()
-  double largest_motion(std::span<const Row> since) const noexcept;
+  /// m; no node is further than this from where it was at an earlier displacement(). Above the largest
+  /// distance by less than sqrt(3), and equal to it where all nodes move along one axis.
+  double motion_bound(std::span<const double> since) const noexcept;
 
   template <class Self, class Visitor>
   static void visit_state(Self& self, Visitor&& visit) {
-    visit("position", self.position_);
+    visit("displacement", self.displacement_);
     visit("velocity", self.velocity_);
     visit("reaction", self.reaction_);
+    visit("loaded_nodes", self.loaded_nodes_);
   }
 
  private:
+  static Triple<double> at(const std::vector<double>& values, Index node) noexcept {
+    const double* v = values.data() + 3 * static_cast<std::size_t>(node);
+    return {v[0], v[1], v[2]};
+  }
+  static void set(std::vector<double>& values, Index node, const Triple<double>& v) noexcept;
+  void react_at(Index node, const Triple<double>& force) noexcept;
+
   std::vector<Feature> features_;
   std::vector<std::string> part_names_;
   std::vector<Index> part_of_node_;
-  std::vector<Row> reference_, position_, velocity_, reaction_;
+  std::vector<double> reference_, displacement_, velocity_;  ///< 3 a node
+  std::vector<Row> reaction_;                                ///< w: not 0 where the node is listed as loaded
+  std::vector<Index> loaded_nodes_;
   std::vector<Index> drifting_;     ///< nodes of prescribed velocity
   std::vector<Row> free_velocity_;  ///< w: inverse mass; empty where contact is explicit
 };

@@ -17,9 +17,10 @@ double distance_to(const Boundary& boundary, const Feature& feature, const Row& 
 std::vector<SlotMove> BoundaryList::rebuild(const Boundary& boundary, const Spheres& spheres,
                                             std::span<const Index> new_place, double skin) {
   const double margin = grid_margin_in_skins * skin;
-  if (grid_positions_.empty() || boundary.largest_motion(grid_positions_) > margin) {
+  const auto now = boundary.displacement();
+  if (gridded_displacement_.empty() || boundary.motion_bound(gridded_displacement_) > margin) {
     grid_.build(boundary, margin);
-    grid_positions_.assign(boundary.position().begin(), boundary.position().end());
+    gridded_displacement_.assign(now.begin(), now.end());
   }
   std::vector<Index> old_entry(static_cast<std::size_t>(spheres.size()), -1);
   for (std::size_t k = 0; k < spheres_.size(); ++k) old_entry[new_place[spheres_[k]]] = static_cast<Index>(k);
@@ -52,7 +53,7 @@ std::vector<SlotMove> BoundaryList::rebuild(const Boundary& boundary, const Sphe
   candidates_.swap(next.candidates_);
   count_.swap(next.count_);
   contacts_.swap(next.contacts_);
-  list_positions_.assign(boundary.position().begin(), boundary.position().end());
+  listed_displacement_.assign(now.begin(), now.end());
   return moves;
 }
 

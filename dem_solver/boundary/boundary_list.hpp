@@ -34,9 +34,9 @@ class BoundaryList {
   std::vector<SlotMove> rebuild(const Boundary& boundary, const Spheres& spheres,
                                 std::span<const Index> new_place, double skin);
 
-  /// m; how far the boundary has moved since the list was built.
+  /// m; no node of the boundary has moved further since the list was built.
   double boundary_motion(const Boundary& boundary) const noexcept {
-    return boundary.largest_motion(list_positions_);
+    return boundary.motion_bound(listed_displacement_);
   }
 
   /// Spheres with candidates; those of the k-th are candidates()[first()[k]] .. candidates()[first()[k + 1]],
@@ -59,14 +59,14 @@ class BoundaryList {
     visit("candidates", self.candidates_);
     visit("count", self.count_);
     visit("contacts", self.contacts_);
-    visit("list_positions", self.list_positions_);
+    visit("listed_displacement", self.listed_displacement_);
   }
 
  private:
   std::vector<Index> spheres_, first_{0}, candidates_, count_;
   std::vector<BoundaryContact> contacts_;
-  std::vector<Row> list_positions_;  ///< of the boundary's nodes when the list was built
-  std::vector<Row> grid_positions_;  ///< and when the grid was; empty before
+  std::vector<double> listed_displacement_;   ///< of the boundary's nodes when the list was built
+  std::vector<double> gridded_displacement_;  ///< and when the grid was; empty before
   FeatureGrid grid_;
 };
 

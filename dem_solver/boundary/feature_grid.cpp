@@ -33,8 +33,8 @@ void FeatureGrid::build(const Boundary& boundary, double margin) {
   std::vector<Row> corners;
   double size = 0;
   for (const Feature& f : boundary.features()) {
-    const Row &a = boundary.position()[f.nodes[0]], &b = boundary.position()[f.nodes[1]];
-    const Row& c = f.is_segment() ? b : boundary.position()[f.nodes[2]];
+    const auto corner = [&](int k) { return row(boundary.position(f.nodes[k])); };
+    const Row a = corner(0), b = corner(1), c = f.is_segment() ? b : corner(2);
     const Box box{moved(minimum(minimum(a, b), c), -margin - f.wire_radius),
                   moved(maximum(maximum(a, b), c), margin + f.wire_radius)};
     size += std::max({box.high.x - box.low.x, box.high.y - box.low.y, box.high.z - box.low.z});

@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <numeric>
 
+#include "core/parallel.hpp"
 #include "dem_solver/collision/size_classes.hpp"
 
 namespace talus::dem {
@@ -127,9 +128,9 @@ PairList::Rebuilt PairList::rebuild(Spheres& spheres, double skin, int threads) 
   std::vector<Index> slab(sorted.slab.size());
   for (std::size_t i = 0; i < slab.size(); ++i) slab[i] = sorted.slab[sorted.order[i]];
   std::vector<BlockPairs> found(static_cast<std::size_t>(block_count()));
-#pragma omp parallel for schedule(dynamic) num_threads(threads) if (threads > 1)
-  for (Index k = 0; k < block_count(); ++k)
+  core::parallel_tasks({block_count(), threads}, [&](std::int64_t k) {
     found[k] = search_block(spheres, classes, slab, skin, block_first_[k], block_first_[k + 1]);
+  });
 
   first_.assign(1, 0);
   other_.clear();

@@ -3,6 +3,7 @@
 #include <array>
 #include <vector>
 
+#include "core/parallel.hpp"
 #include "dem_solver/boundary/touching_features.hpp"
 #include "dem_solver/contact/contact_batch.hpp"
 #include "dem_solver/contact/implicit_contact.hpp"
@@ -36,13 +37,13 @@ class BoundaryContacts : public ContactBatch<Law> {
     const auto count = static_cast<Index>(context.list.spheres().size());
     const Index tasks = (count + chunk - 1) / chunk;
     this->clear_work();
-#pragma omp parallel for schedule(dynamic) num_threads(context.threads) if (context.threads > 1 && tasks > 1)
-    for (Index task = 0; task < tasks; ++task) {
+    core::parallel_tasks({tasks, context.threads}, [&](std::int64_t task) {
+      const auto begin = static_cast<Index>(task) * chunk;
       ContactWork work;
-      for (Index k = task * chunk; k < std::min(count, (task + 1) * chunk); ++k)
+      for (Index k = begin; k < std::min(count, begin + chunk); ++k)
         evaluate_sphere(context, k, scratch_[task], work);
-      this->add_work(task, work);
-    }
+      this->add_work(static_cast<Index>(task), work);
+    });
     collect_reactions(context);
   }
 

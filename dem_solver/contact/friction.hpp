@@ -59,12 +59,15 @@ struct CoulombFriction {
            turned;
   }
 
-  /// The vector, cut to a length where it is longer.
+  /// The vector, cut to a length where it is longer. Most contacts stick: they are spared the root and the
+  /// division.
   template <class Real>
   TALUS_INLINE static Triple<Real> shortened(const Triple<Real>& vector, Real most) noexcept {
     const Real none{}, tiny = none + 1e-300;
-    const Real size = square_root(dot(vector, vector));
-    return select(size > most, (most / larger(size, tiny)) * vector, vector);
+    const Real squared = dot(vector, vector);
+    const auto longer = squared > most * most;
+    if (!any(longer)) return vector;
+    return select(longer, (most / larger(square_root(squared), tiny)) * vector, vector);
   }
 
   template <class Real>

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "core/parallel.hpp"
 #include "dem_solver/collision/pair_list.hpp"
 #include "dem_solver/contact/contact_batch.hpp"
 #include "dem_solver/contact/law.hpp"
@@ -36,10 +37,11 @@ class PairContacts : public ContactBatch<Law> {
   /// the number of threads.
   void evaluate(const Context& context) noexcept {
     this->clear_work();
-    for (int pass = 0; pass < PairList::passes; ++pass) {
-      const Index blocks = context.list.block_count();
-#pragma omp parallel for schedule(dynamic) num_threads(context.threads) if (context.threads > 1)
-      for (Index block = pass; block < blocks; block += PairList::passes) evaluate_block(context, block);
+    for (Index pass = 0; pass < PairList::passes; ++pass) {
+      const Index blocks = (context.list.block_count() + 1 - pass) / PairList::passes;
+      core::parallel_tasks({blocks, context.threads}, [&](std::int64_t k) {
+        evaluate_block(context, pass + PairList::passes * static_cast<Index>(k));
+      });
     }
     if (!context.list.wide().empty()) evaluate_wide(context);
   }

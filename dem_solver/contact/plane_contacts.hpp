@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/parallel.hpp"
 #include "dem_solver/boundary/planes.hpp"
 #include "dem_solver/contact/contact_batch.hpp"
 #include "dem_solver/contact/rigid_contact.hpp"
@@ -27,9 +28,8 @@ class PlaneContacts : public ContactBatch<Law> {
   /// Each sphere's planes in their order, so that a sphere in a corner gets its forces in a fixed one.
   void evaluate(const Context& context) noexcept {
     this->clear_work();
-    const Index chunks = context.list.chunk_count();
-#pragma omp parallel for schedule(static) num_threads(context.threads) if (context.threads > 1 && chunks > 1)
-    for (Index chunk = 0; chunk < chunks; ++chunk) evaluate_chunk(context, chunk);
+    core::parallel_tasks({context.list.chunk_count(), context.threads},
+                         [&](std::int64_t chunk) { evaluate_chunk(context, static_cast<Index>(chunk)); });
   }
 
  private:

@@ -1,6 +1,9 @@
 #include "dem_solver/integration/leapfrog.hpp"
 
 #include <algorithm>
+#include <atomic>
+
+#include "core/parallel.hpp"
 
 namespace talus::dem {
 
@@ -32,22 +35,33 @@ TALUS_INLINE void move_sphere(Spheres& s, Index i, const StepRows& by, Extremes&
 }
 
 template <bool rotates, bool falls>
+Extremes move_run(Spheres& spheres, core::Block run, const StepRows& by) noexcept {
+  const bool has_rocks = !spheres.rock.empty();
+  Extremes extremes;
+  for (auto i = static_cast<Index>(run.begin); i < run.end; ++i)
+    if (!has_rocks || spheres.rock[i] < 0) move_sphere<rotates, falls>(spheres, i, by, extremes);
+  return extremes;
+}
+
+void raise(std::atomic<double>& largest, double value) noexcept {
+  double before = largest.load();
+  while (before < value && !largest.compare_exchange_weak(before, value)) {
+  }
+}
+
+template <bool rotates, bool falls>
 MotionSummary move_all(Spheres& spheres, const LeapfrogStep& how) noexcept {
   const StepRows by{.gravity = Lanes{how.gravity.x, how.gravity.y, how.gravity.z, 0} * how.kick,
                     .step = Lanes{how.step, how.step, how.step, 0},
                     .kick = Lanes{how.kick, how.kick, how.kick, 0}};
-  double speed_squared = 0, sum = 0;
-  const Index count = spheres.size();
-  const bool has_rocks = !spheres.rock.empty();
-#pragma omp parallel for schedule(static) num_threads(how.threads) if (how.threads > 1) reduction(max : speed_squared) reduction(+ : sum)
-  for (Index i = 0; i < count; ++i) {
-    if (has_rocks && spheres.rock[i] >= 0) continue;
-    Extremes extremes;
-    move_sphere<rotates, falls>(spheres, i, by, extremes);
-    speed_squared = std::max(speed_squared, extremes.speed_squared);
-    sum += extremes.sum;
-  }
-  return {.largest_speed = std::sqrt(speed_squared), .finite = std::isfinite(sum)};
+  std::atomic<double> speed_squared{0};
+  std::atomic<bool> finite{true};
+  core::parallel_runs({spheres.size(), how.threads}, [&](core::Block run) {
+    const Extremes extremes = move_run<rotates, falls>(spheres, run, by);
+    raise(speed_squared, extremes.speed_squared);
+    if (!std::isfinite(extremes.sum)) finite = false;
+  });
+  return {.largest_speed = std::sqrt(speed_squared), .finite = finite};
 }
 
 }  // namespace

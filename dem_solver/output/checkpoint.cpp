@@ -66,7 +66,7 @@ void read_checkpoint(ParticleSolver& solver, const std::filesystem::path& path) 
     throw core::ConfigError(path.string() + " belongs to another scene: its contacts have other terms");
   if (restored.spheres().size() != solver.spheres().size() ||
       restored.rocks().size() != solver.rocks().size() ||
-      restored.boundary().position().size() != solver.boundary().position().size())
+      restored.boundary().node_count() != solver.boundary().node_count())
     throw core::ConfigError(path.string() +
                             " belongs to another scene: it has other numbers of spheres, rocks or nodes");
   restored.fit_to_state();

@@ -10,13 +10,18 @@ using core::LedgerKind;
 
 ParticleOutput::ParticleOutput(const ParticleSolver& solver, NamedBodies named,
                                std::vector<mesh::Surface> rock_surfaces, const core::StageClock* clock)
-    : solver_(solver), named_(std::move(named)), rock_surfaces_(std::move(rock_surfaces)), clock_(clock) {
+    : solver_(solver),
+      named_(std::move(named)),
+      rock_surfaces_(std::move(rock_surfaces)),
+      gates_(solver),
+      clock_(clock) {
   describe_probes();
   if (clock_) clock_->describe(description_.probes);
   if (solver_.law().ledger) describe_ledger();
   describe_particles();
   describe_rocks();
   if (!solver_.boundary().empty()) describe_boundary();
+  description_.tables = gates_.descriptions();
 }
 
 void ParticleOutput::describe_probes() {
@@ -33,8 +38,8 @@ void ParticleOutput::describe_probes() {
   for (const auto& [name, id] : named_.spheres) add_body(name, solver_.spheres().rotates());
   for (const auto& [name, k] : named_.rocks) add_body(name, true);
   for (const Gate& gate : solver_.gates().gates())
-    for (const char* quantity :
-         {".stones_passed", ".mass_passed_kg", ".energy_passed_J", ".smallest_radius_m", ".largest_radius_m"})
+    for (const char* quantity : {".stones_passed", ".mass_passed_kg", ".energy_passed_J",
+                                 ".smallest_radius_m", ".largest_radius_m", ".stones_held"})
       description_.probes.push_back({gate.name + quantity});
 }
 
@@ -122,8 +127,9 @@ void ParticleOutput::fill_probes(std::span<double> values) const {
     *next++ = energy(rocks.mass(k), rocks.velocity(k)) + 0.5 * dot(rocks.spin(k), rocks.angular_momentum(k));
   }
   for (const Passed& passed : solver_.gates().passed())
-    for (double value : {static_cast<double>(passed.stones), passed.mass, passed.kinetic_energy,
-                         passed.smallest_radius, passed.largest_radius})
+    for (double value :
+         {static_cast<double>(passed.stones), passed.mass, passed.kinetic_energy, passed.smallest_radius,
+          passed.largest_radius, static_cast<double>(gates_.stones() - passed.stones)})
       *next++ = value;
   if (clock_) std::ranges::copy(clock_->seconds(), next);
 }
@@ -136,22 +142,23 @@ void ParticleOutput::fill_ledger(std::span<double> joules) const {
 }
 
 namespace {
-void put_rows(std::span<const Row> rows, std::span<double> values) {
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    values[3 * i] = rows[i].x;
-    values[3 * i + 1] = rows[i].y;
-    values[3 * i + 2] = rows[i].z;
-  }
+void put_triple(const Triple<double>& t, double* to) {
+  to[0] = t.x;
+  to[1] = t.y;
+  to[2] = t.z;
+}
+
+/// value(node) of every node of the boundary.
+template <class Value>
+void put_by_node(const Boundary& boundary, const Value& value, std::span<double> values) {
+  for (Index i = 0; i < boundary.node_count(); ++i)
+    put_triple(value(i), values.data() + 3 * static_cast<std::size_t>(i));
 }
 
 /// In the order the spheres were added, whatever the solver's own order is.
 void put_by_id(const Spheres& spheres, std::span<const Row> rows, std::span<double> values) {
-  for (Index i = 0; i < spheres.size(); ++i) {
-    double* to = values.data() + 3 * static_cast<std::size_t>(spheres.id[i]);
-    to[0] = rows[i].x;
-    to[1] = rows[i].y;
-    to[2] = rows[i].z;
-  }
+  for (Index i = 0; i < spheres.size(); ++i)
+    put_triple(triple<double>(rows[i]), values.data() + 3 * static_cast<std::size_t>(spheres.id[i]));
 }
 }  // namespace
 
@@ -175,13 +182,17 @@ void ParticleOutput::fill_positions(std::size_t group, std::span<double> positio
       return fill_rock_surfaces(positions);
     case Group::wires:
     case Group::faces:
-      return put_rows(solver_.boundary().position(), positions);
+      return put_by_node(
+          solver_.boundary(), [this](Index i) { return solver_.boundary().position(i); }, positions);
   }
 }
 
 void ParticleOutput::fill_field(std::size_t group, std::size_t field, std::span<double> values) const {
   const Spheres& s = solver_.spheres();
-  if (groups_[group] != Group::particles) return put_rows(solver_.boundary().reaction(), values);
+  const Boundary& boundary = solver_.boundary();
+  if (groups_[group] != Group::particles)
+    return put_by_node(
+        boundary, [&](Index i) { return triple<double>(boundary.reaction()[i]); }, values);
   if (field == 1) return put_by_id(s, s.velocity, values);
   if (field == 2) return put_by_id(s, s.spin, values);
   for (Index i = 0; i < s.size(); ++i) values[s.id[i]] = s.position[i].w;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/output/source.hpp"
+#include "dem_solver/output/gate_tables.hpp"
 #include "dem_solver/solver.hpp"
 
 namespace talus::dem {
@@ -14,8 +15,8 @@ struct NamedBodies {
   std::vector<std::pair<std::string, Index>> spheres, rocks;
 };
 
-/// What a run of particles writes: the trajectory of each named sphere and rock, the ledger, and fields of
-/// all particles, of the rocks' surfaces and of the boundary.
+/// What a run of particles writes: the trajectory of each named sphere and rock, the ledger, the tables
+/// of the gates, and fields of all particles, of the rocks' surfaces and of the boundary.
 class ParticleOutput : public core::OutputSource {
  public:
   /// @param rock_surfaces one a rock, in its principal axes; empty ones are not drawn
@@ -29,6 +30,10 @@ class ParticleOutput : public core::OutputSource {
   void fill_ledger(std::span<double> joules) const override;
   void fill_positions(std::size_t group, std::span<double> positions) const override;
   void fill_field(std::size_t group, std::size_t field, std::span<double> values) const override;
+  std::int64_t table_rows(std::size_t table) const override { return gates_.rows(table); }
+  void fill_table(std::size_t table, std::int64_t first, std::span<double> values) const override {
+    gates_.fill(table, first, values);
+  }
 
  private:
   enum class Group { particles, rocks, wires, faces };
@@ -42,6 +47,7 @@ class ParticleOutput : public core::OutputSource {
   const ParticleSolver& solver_;
   NamedBodies named_;
   std::vector<mesh::Surface> rock_surfaces_;
+  GateTables gates_;
   const core::StageClock* clock_;
   core::OutputDescription description_;
   std::vector<Group> groups_;

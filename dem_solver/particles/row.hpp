@@ -48,6 +48,17 @@ TALUS_INLINE double exponential(double a) noexcept {
 TALUS_INLINE Lanes exponential(Lanes a) noexcept {
   return Lanes{std::exp(a[0]), std::exp(a[1]), std::exp(a[2]), std::exp(a[3])};
 }
+/// Whether a comparison holds, of any lane.
+TALUS_INLINE bool any(bool condition) noexcept {
+  return condition;
+}
+TALUS_INLINE bool any(decltype(Lanes{} > Lanes{}) condition) noexcept {
+#ifdef __AVX__
+  return __builtin_ia32_movmskpd256(reinterpret_cast<Lanes>(condition)) != 0;
+#else
+  return (condition[0] | condition[1] | condition[2] | condition[3]) != 0;
+#endif
+}
 template <class Real>
 TALUS_INLINE Real larger(Real a, Real b) noexcept {
   return a > b ? a : b;

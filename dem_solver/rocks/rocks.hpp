@@ -47,6 +47,8 @@ class Rocks {
   double mass(Index k) const noexcept { return mass_[k]; }
   /// m; of the sphere about the centre that holds the rock.
   double radius(Index k) const noexcept { return radius_[k]; }
+  /// The id of its first sphere.
+  Index first_sphere(Index k) const noexcept { return members_[first_member_[k]]; }
   const Triple<double>& centre(Index k) const noexcept { return centre_[k]; }
   const Triple<double>& velocity(Index k) const noexcept { return velocity_[k]; }
   const Triple<double>& force(Index k) const noexcept { return force_[k]; }

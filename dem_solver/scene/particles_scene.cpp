@@ -1,5 +1,9 @@
 #include "dem_solver/scene/particles_scene.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+
 #include "dem_solver/scene/scene_rules.hpp"
 
 namespace talus::dem {
@@ -49,6 +53,9 @@ void describe(core::Fields& fields, ParticlesScene& particles) {
                 "what to do with a step above a stability limit");
   fields.with_default("threads", particles.threads,
                       {.range = {.low = 1, .high = 1024}, .help = "any number gives the same bits"});
+  for (const char* file : {"probes", "energy"})
+    fields.rule(std::ranges::count(particles.gates, file, [](const auto& gate) { return gate.first; }) == 0,
+                "gates", fmt::format("may not be named `{0}`: {0}.csv is another file of the result", file));
   check_references(fields, particles);
 }
 

@@ -37,8 +37,8 @@ double drop_height(const ParticleModel& model, const Triple<double>& from) {
   if (g == 0) return 0;
   const Triple<double> down = (1 / g) * model.gravity;
   double drop = 0;
-  for (const Row& node : model.boundary.position())
-    drop = std::max(drop, dot(triple<double>(node) - from, down));
+  for (Index node = 0; node < model.boundary.node_count(); ++node)
+    drop = std::max(drop, dot(model.boundary.position(node) - from, down));
   for (const Plane& plane : model.planes) {
     const double fall = -dot(down, plane.normal);
     if (fall > 1e-3) drop = std::max(drop, dot(from - plane.point, plane.normal) / fall);

@@ -79,6 +79,8 @@ class Faulty final : public coupler::Participant {
   std::span<double> ledger() override { return real_.ledger(); }
   std::span<double> positions(std::size_t group) override { return real_.positions(group); }
   std::span<double> field(std::size_t group, std::size_t field) override { return real_.field(group, field); }
+  std::span<double> table(std::size_t table) override { return real_.table(table); }
+  double& table_rows(std::size_t table) override { return real_.table_rows(table); }
 
  private:
   coupler::Participant& real_;

@@ -69,6 +69,8 @@ TEST_CASE("Bad particle scenes are refused with a message that says what to do")
   CHECK_THAT(text("  streams: {s: {material: rock, count: 1000000, radius: [0.1], low: [0, 0, 0], high: [1, "
                   "1, 1]}}\n"),
              Contains("the box has room for 125 spheres"));
+  CHECK_THAT(text("  gates: {probes: {point: [0, 0, 0], normal: [0, 0, 1]}}\n"),
+             Contains("particles.gates") && Contains("may not be named `probes`"));
 }
 
 namespace {

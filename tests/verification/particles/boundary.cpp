@@ -108,7 +108,7 @@ TEST_CASE("The boundary's reactions add up to the opposite of the contact force 
   for (Index i = 0; i < solver.boundary().node_count(); ++i) {
     const Triple<double> r = triple<double>(solver.boundary().reaction()[i]);
     sum = sum + r;
-    moment = moment + cross(triple<double>(solver.boundary().position()[i]), r);
+    moment = moment + cross(solver.boundary().position(i), r);
   }
   const Triple<double> f = force(solver, 0);
   REQUIRE(length(f) > 0);
