@@ -28,14 +28,17 @@ class CellGrid {
   TALUS_INLINE Index number(const Cell& c) const noexcept {
     return (c[axis_[0]] * count_[axis_[1]] + c[axis_[1]]) * count_[axis_[2]] + c[axis_[2]];
   }
-  /// Another numbering, for sorting: `width` neighbouring slabs are a block, whose cells are numbered with
-  /// the second axis slowest. So neighbours stand near each other in memory, in whichever slab of the block.
-  Index number_in_blocks(const Cell& c, Index width) const noexcept {
-    const Index block = c[axis_[0]] / width, first = block * width,
-                slabs = std::min(width, slab_count() - first);
-    const Index before = first * count_[axis_[1]];
-    return (before + c[axis_[1]] * slabs + c[axis_[0]] - first) * count_[axis_[2]] + c[axis_[2]];
+  /// Another numbering, for sorting: neighbouring slabs, from `first` on, are a block, whose cells are
+  /// numbered with the second axis slowest. So neighbours stand near each other in memory, in whichever slab
+  /// of the block.
+  struct SlabBlock {
+    Index first = 0, slabs = 0;
+  };
+  Index number_in_block(const Cell& c, const SlabBlock& block) const noexcept {
+    const Index before = block.first * count_[axis_[1]];
+    return (before + c[axis_[1]] * block.slabs + c[axis_[0]] - block.first) * count_[axis_[2]] + c[axis_[2]];
   }
+  Index cells_a_slab() const noexcept { return count_[axis_[1]] * count_[axis_[2]]; }
   Index slab(const Cell& c) const noexcept { return c[axis_[0]]; }
   Index slab_count() const noexcept { return count_[axis_[0]]; }
   Index cell_count() const noexcept { return count_[0] * count_[1] * count_[2]; }

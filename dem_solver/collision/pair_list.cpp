@@ -1,6 +1,7 @@
 #include "dem_solver/collision/pair_list.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cstdlib>
 #include <numeric>
 
@@ -15,6 +16,27 @@ namespace {
 constexpr Index most_blocks = 32;
 constexpr Index fewest_slabs_a_block = 2;  // so that every second block is out of reach
 
+/// Cuts the slabs into blocks of about equally many spheres. Their number is a power of two, so that the even
+/// blocks, and the odd ones, can be shared evenly among 2, 4 or 8 threads.
+std::vector<CellGrid::SlabBlock> cut_into_blocks(std::span<const Index> slab_of, Index slabs) {
+  const Index blocks = std::min<Index>(
+      most_blocks,
+      static_cast<Index>(std::bit_floor(static_cast<unsigned>(std::max(1, slabs / fewest_slabs_a_block)))));
+  std::vector<std::int64_t> up_to(static_cast<std::size_t>(slabs) + 1);  // spheres before each slab
+  for (Index slab : slab_of) ++up_to[slab + 1];
+  std::partial_sum(up_to.begin(), up_to.end(), up_to.begin());
+  std::vector<CellGrid::SlabBlock> cut;
+  for (Index k = 0, first = 0; k < blocks; ++k) {
+    const Index left = blocks - 1 - k;
+    Index end = std::min(first + fewest_slabs_a_block, slabs);
+    while (end < slabs - left * fewest_slabs_a_block && up_to[end] * blocks < (k + 1) * up_to.back()) ++end;
+    if (left == 0) end = slabs;
+    cut.push_back({first, end - first});
+    first = end;
+  }
+  return cut;
+}
+
 /// Spheres in the order of blocks and, within a block, in the order of their cells; equal cells keep the
 /// present order.
 struct SpatialOrder {
@@ -25,22 +47,20 @@ struct SpatialOrder {
 
 SpatialOrder spatial_order(const Spheres& spheres, double cell_size) {
   const CellGrid grid(spheres.position, cell_size);
-  const Index slabs = grid.slab_count(),
-              width = std::max(fewest_slabs_a_block, (slabs + most_blocks - 1) / most_blocks);
   std::vector<Index> all(spheres.position.size()), cell_of(spheres.position.size());
   std::iota(all.begin(), all.end(), 0);
   SpatialOrder sorted;
-  sorted.slab.resize(all.size());
-  for (Index i : all) {
-    const CellGrid::Cell cell = grid.cell(spheres.position[i]);
-    cell_of[i] = grid.number_in_blocks(cell, width);
-    sorted.slab[i] = grid.slab(cell);
-  }
+  for (Index i : all) sorted.slab.push_back(grid.slab(grid.cell(spheres.position[i])));
+  const std::vector<CellGrid::SlabBlock> blocks = cut_into_blocks(sorted.slab, grid.slab_count());
+  std::vector<Index> block_of(static_cast<std::size_t>(grid.slab_count()));
+  for (Index k = 0; k < static_cast<Index>(blocks.size()); ++k)
+    std::fill_n(block_of.begin() + blocks[k].first, blocks[k].slabs, k);
+  for (Index i : all)
+    cell_of[i] = grid.number_in_block(grid.cell(spheres.position[i]), blocks[block_of[sorted.slab[i]]]);
   CellMembers members;
   members.fill(all, cell_of, grid.cell_count());
-  const Index cells_a_block = width * (grid.cell_count() / slabs);
-  for (Index first = 0; first < grid.cell_count(); first += cells_a_block)
-    sorted.block_first.push_back(members.first[first]);
+  for (const CellGrid::SlabBlock& block : blocks)
+    sorted.block_first.push_back(members.first[block.first * grid.cells_a_slab()]);
   sorted.block_first.push_back(members.first.back());
   sorted.order = std::move(members.points);
   return sorted;

@@ -75,6 +75,28 @@ class StonesOnHomogenisedPanel(unittest.TestCase):
         self.assertAlmostEqual(below["below.stones_passed"], self.passed.sum(), delta=2)  # frames are 0.1 s apart
         self.assertLess(2 * below["below.largest_radius_m"], WIDEST)
 
+    def test_every_stone_that_passed_stands_once_in_the_table_with_its_own_size(self):
+        with open(self.run_.result / "below.csv", newline="") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual(len(rows), self.run_.summary["last"]["below.stones_passed"])
+        times, stones = [float(row["time_s"]) for row in rows], [int(row["stone"]) for row in rows]
+        self.assertEqual(len(set(stones)), len(stones))
+        self.assertTrue(0 < min(times) and max(times) <= self.run_.column("time_s")[-1])
+        of_block = self.run_.frames()[0].size - self.stones  # its spheres have the first numbers
+        for row, stone in zip(rows, stones):
+            self.assertEqual(float(row["diameter_m"]), self.diameters[stone - of_block])
+
+    def test_the_summary_counts_stones_that_passed_and_were_held_by_size_and_the_block_among_the_held(self):
+        sizes = self.run_.summary["tables"]["below.sizes"]
+        self.assertEqual(sum(row["spheres_passed"] for row in sizes), self.run_.summary["last"]["below.stones_passed"])
+        self.assertEqual(sum(row["spheres_passed"] + row["spheres_held"] for row in sizes), self.stones)
+        self.assertEqual([(row["rocks_passed"], row["rocks_held"]) for row in sizes if row["rocks_held"] + row["rocks_passed"] > 0], [(0, 1)])
+        for row in sizes:
+            within = (self.diameters >= row["diameter_from_m"]) & (self.diameters < row["diameter_to_m"])
+            self.assertEqual(row["spheres_passed"] + row["spheres_held"], within.sum())
+            if row["diameter_from_m"] > WIDEST:
+                self.assertEqual(row["spheres_passed"], 0)
+
     def test_the_energy_balance_closes(self):
         self.assertLess(self.run_.energy_error(), 0.01)
 

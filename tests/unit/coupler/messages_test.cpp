@@ -35,6 +35,10 @@ TEST_CASE("a declaration arrives as it was sent") {
        .nodes = 3,
        .cells = {0, 1, 1, 2},
        .fields = {{.name = "force", .unit = "N", .components = 1, .location = core::FieldLocation::cell}}}};
+  sent.outputs.tables = {{.name = "gate",
+                          .columns = {"time_s", "stone"},
+                          .capacity = 7,
+                          .kind = core::TableKind::distribution}};
   const Declaration got = decode_declaration(encode(sent));
   CHECK(got.program == sent.program);
   CHECK(got.step == sent.step);
@@ -46,6 +50,11 @@ TEST_CASE("a declaration arrives as it was sent") {
   REQUIRE(got.outputs.groups.size() == 1);
   CHECK(got.outputs.groups[0].cells == sent.outputs.groups[0].cells);
   CHECK(got.outputs.groups[0].fields[0].location == core::FieldLocation::cell);
+  REQUIRE(got.outputs.tables.size() == 1);
+  CHECK(got.outputs.tables[0].name == "gate");
+  CHECK(got.outputs.tables[0].columns == sent.outputs.tables[0].columns);
+  CHECK(got.outputs.tables[0].capacity == 7);
+  CHECK(got.outputs.tables[0].kind == core::TableKind::distribution);
 }
 
 TEST_CASE("a message cut short is the sender's fault, not a crash") {
@@ -82,9 +91,11 @@ TEST_CASE("output values of a participant stand side by side and do not overlap"
        .cells = {0, 1, 1, 2, 2, 3},
        .fields = {{.name = "u", .unit = "m", .components = 3},
                   {.name = "N", .unit = "N", .components = 1, .location = core::FieldLocation::cell}}}};
+  description.tables = {{.name = "gate", .columns = {"time_s", "stone"}, .capacity = 4},
+                        {.name = "sizes", .columns = {"count"}, .capacity = 1}};
   const OutputArrays arrays(description);
   std::vector<double> block(arrays.size());
-  CHECK(arrays.size() == 2 + 3 + 12 + 12 + 3);
+  CHECK(arrays.size() == 2 + 3 + 12 + 12 + 3 + (1 + 8) + (1 + 1));
   const auto start = [&](std::span<double> part) { return part.data() - block.data(); };
   CHECK(start(arrays.probes(block)) == 0);
   CHECK(start(arrays.ledger(block)) == 2);
@@ -92,4 +103,9 @@ TEST_CASE("output values of a participant stand side by side and do not overlap"
   CHECK(start(arrays.field(block, 0, 0)) == 17);
   CHECK(start(arrays.field(block, 0, 1)) == 29);
   CHECK(arrays.field(block, 0, 1).size() == 3);
+  CHECK(&arrays.table_rows(block, 0) == block.data() + 32);
+  CHECK(start(arrays.table(block, 0)) == 33);
+  CHECK(arrays.table(block, 0).size() == 8);
+  CHECK(&arrays.table_rows(block, 1) == block.data() + 41);
+  CHECK(arrays.table(block, 1).size() == 1);
 }
