@@ -11,18 +11,18 @@ namespace {
 constexpr Index chunk_length = 256;
 
 /// A contact that touched at the last evaluation, its sphere in the new place.
-struct OldContact {
+struct OldPlaneContact {
   Index sphere = 0, plane = 0, slot = 0;
 };
 
-std::vector<OldContact> old_contacts(std::span<const PlaneList::Entry> entries,
-                                     std::span<const std::uint8_t> touched,
-                                     std::span<const Index> new_place) {
-  std::vector<OldContact> old;
+std::vector<OldPlaneContact> old_plane_contacts(std::span<const PlaneList::Entry> entries,
+                                                std::span<const std::uint8_t> touched,
+                                                std::span<const Index> new_place) {
+  std::vector<OldPlaneContact> old;
   for (std::size_t slot = 0; slot < entries.size(); ++slot)
     if (touched[slot])
       old.push_back({new_place[entries[slot].sphere], entries[slot].plane, static_cast<Index>(slot)});
-  std::ranges::sort(old, {}, [](const OldContact& c) { return std::tuple(c.sphere, c.plane); });
+  std::ranges::sort(old, {}, [](const OldPlaneContact& c) { return std::tuple(c.sphere, c.plane); });
   return old;
 }
 
@@ -30,7 +30,7 @@ std::vector<OldContact> old_contacts(std::span<const PlaneList::Entry> entries,
 
 std::vector<SlotMove> PlaneList::rebuild(std::span<const Plane> planes, const Spheres& spheres,
                                          std::span<const Index> new_place, double skin) {
-  const std::vector<OldContact> old = old_contacts(entries_, touched_, new_place);
+  const std::vector<OldPlaneContact> old = old_plane_contacts(entries_, touched_, new_place);
   auto next = old.begin();
   std::vector<SlotMove> moves;
   entries_.clear();

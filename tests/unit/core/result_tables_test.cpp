@@ -46,7 +46,7 @@ class Counter final : public core::OutputSource {
   core::OutputDescription description_;
 };
 
-core::ResultWriter::Options options(const Folder& folder) {
+core::ResultWriter::Options written_to(const Folder& folder) {
   return {.folder = folder / "result", .existing = core::ResultFolder::Existing::replace};
 }
 
@@ -55,7 +55,7 @@ core::ResultWriter::Options options(const Folder& folder) {
 TEST_CASE("events are in their file as soon as they are told, each once") {
   const Folder folder("events");
   Counter counter;
-  core::ResultWriter writer(options(folder), {&counter});
+  core::ResultWriter writer(written_to(folder), {&counter});
   CHECK(text_of(folder / "result/gate.csv") == "time_s,size_m\n");
   counter.events = {{0.25, 0.5}};
   writer.write_row(1);
@@ -69,7 +69,7 @@ TEST_CASE("events are in their file as soon as they are told, each once") {
 TEST_CASE("the summary names the file of events and holds the distribution of the last row") {
   const Folder folder("distribution");
   Counter counter;
-  core::ResultWriter writer(options(folder), {&counter});
+  core::ResultWriter writer(written_to(folder), {&counter});
   counter.events = {{0.25, 0.5}};
   counter.small = 7;
   writer.write_row(1);
@@ -86,9 +86,9 @@ TEST_CASE("the summary names the file of events and holds the distribution of th
 TEST_CASE("replacing a result removes the files of its tables and nothing else") {
   const Folder folder("replaced_tables");
   const Counter counter("before"), other("after");
-  core::ResultWriter(options(folder), {&counter}).finish(core::RunStatus::finished);
+  core::ResultWriter(written_to(folder), {&counter}).finish(core::RunStatus::finished);
   std::ofstream(folder / "result/mine.csv") << "x\n";
-  core::ResultWriter(options(folder), {&other}).finish(core::RunStatus::finished);
+  core::ResultWriter(written_to(folder), {&other}).finish(core::RunStatus::finished);
   CHECK_FALSE(std::filesystem::exists(folder / "result/before.csv"));
   CHECK(std::filesystem::exists(folder / "result/after.csv"));
   CHECK(std::filesystem::exists(folder / "result/mine.csv"));
@@ -104,7 +104,7 @@ TEST_CASE("a table's file is never one that another table or every result has") 
 TEST_CASE("a value of a table that is not finite ends the run") {
   const Folder folder("table_nan");
   Counter counter;
-  core::ResultWriter writer(options(folder), {&counter});
+  core::ResultWriter writer(written_to(folder), {&counter});
   counter.events = {{1, std::numeric_limits<double>::quiet_NaN()}};
   CHECK_THROWS_AS(writer.write_row(1), core::NumericalError);
   CHECK(text_of(folder / "result/gate.csv") == "time_s,size_m\n");

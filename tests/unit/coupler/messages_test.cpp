@@ -35,10 +35,8 @@ TEST_CASE("a declaration arrives as it was sent") {
        .nodes = 3,
        .cells = {0, 1, 1, 2},
        .fields = {{.name = "force", .unit = "N", .components = 1, .location = core::FieldLocation::cell}}}};
-  sent.outputs.tables = {{.name = "gate",
-                          .columns = {"time_s", "stone"},
-                          .capacity = 7,
-                          .kind = core::TableKind::distribution}};
+  sent.outputs.tables = {
+      {.name = "gate", .columns = {"time_s", "stone"}, .capacity = 7, .kind = core::TableKind::distribution}};
   const Declaration got = decode_declaration(encode(sent));
   CHECK(got.program == sent.program);
   CHECK(got.step == sent.step);
