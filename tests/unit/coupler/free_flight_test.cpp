@@ -109,12 +109,12 @@ Divided divided(const test::TwoMasses& system, std::int64_t longest) {
 }
 
 /// Both masses in one leapfrog.
-struct Undivided {
+struct OnePieceRun {
   std::vector<double> particle;
   double peak = 0;
 };
-Undivided undivided(const test::TwoMasses& system) {
-  Undivided result;
+OnePieceRun in_one_piece(const test::TwoMasses& system) {
+  OnePieceRun result;
   test::Mass node{.mass = system.structure_mass};
   test::Mass particle{
       .mass = system.particle_mass, .position = system.gap, .velocity = system.particle_velocity};
@@ -134,7 +134,7 @@ constexpr test::TwoMasses far_away{.structure_stiffness = 3000, .contact_stiffne
 }  // namespace
 
 TEST_CASE("windows that grow in free flight find the first touch in the step where it is") {
-  const Undivided expected = undivided(far_away);
+  const OnePieceRun expected = in_one_piece(far_away);
   const Divided grown = divided(far_away, 64);
   CHECK(grown.seen.particle.size() == static_cast<std::size_t>(regular_windows));
   // Up to the impact nothing moves but the particle, in the same steps: the same bits, and so is the impact.
