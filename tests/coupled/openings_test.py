@@ -1,6 +1,7 @@
 """One net, two meshes: what passes the real openings of a homogenised panel, and what homogenisation changes of an impact.
 
 Arguments: the folder of the repository, the folder of the build."""
+import csv
 import math
 import sys
 import unittest
