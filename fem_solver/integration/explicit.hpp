@@ -131,6 +131,7 @@ class ExplicitSolver final : public Integrator {
   double power_of_supports() const noexcept;
   void arrive(double time) noexcept;
   void leave(double time, double step) noexcept;
+  EnergyBalance balance_at_evaluation() const;
   std::vector<double> displacement_at_evaluation() const;
   void add_kinetic(EnergyBalance& balance) const;
   [[noreturn]] void report_blow_up(double time) const;

@@ -46,12 +46,20 @@ double ExplicitSolver::power_of_supports() const noexcept {
   return power;
 }
 
+// Before the first step nothing has been evaluated. What is evaluated for the balance is not kept: a run restarted
+// from here has to write the same first row.
 EnergyBalance ExplicitSolver::balance() {
-  if (state_.steps == 0) {
-    state_.kick = 0.5 * longest_step_;
-    evaluate_forces(0);
-    impose_supports(0, longest_step_);
-  }
+  if (state_.steps > 0) return balance_at_evaluation();
+  const ExplicitState start = state_;
+  state_.kick = 0.5 * longest_step_;
+  evaluate_forces(0);
+  impose_supports(0, longest_step_);
+  const EnergyBalance balance = balance_at_evaluation();
+  state_ = start;
+  return balance;
+}
+
+EnergyBalance ExplicitSolver::balance_at_evaluation() const {
   const std::vector<double> displacement = displacement_at_evaluation();
   EnergyBalance balance;
   add_kinetic(balance);

@@ -47,6 +47,7 @@ class StonesOnHomogenisedPanel(unittest.TestCase):
     def setUpClass(cls):
         cls.run_ = Run("examples/openings", FEWER_STONES)
         diameters, paths = paths_of_spheres(cls.run_)
+        cls.of_block = diameters.size - cls.stones  # its spheres have the first numbers
         cls.diameters = diameters[-cls.stones:]
         cls.passed = pass_disc(paths[:, -cls.stones:], centre=(2.328, 2.52, -2.5), radius=2.5)
 
@@ -83,9 +84,8 @@ class StonesOnHomogenisedPanel(unittest.TestCase):
         times, stones = [float(row["time_s"]) for row in rows], [int(row["stone"]) for row in rows]
         self.assertEqual(len(set(stones)), len(stones))
         self.assertTrue(0 < min(times) and max(times) <= self.run_.column("time_s")[-1])
-        of_block = self.run_.frames()[0].size - self.stones  # its spheres have the first numbers
         for row, stone in zip(rows, stones):
-            self.assertEqual(float(row["diameter_m"]), self.diameters[stone - of_block])
+            self.assertEqual(float(row["diameter_m"]), self.diameters[stone - self.of_block])
 
     def test_the_summary_counts_stones_that_passed_and_were_held_by_size_and_the_block_among_the_held(self):
         sizes = self.run_.summary["tables"]["below.sizes"]

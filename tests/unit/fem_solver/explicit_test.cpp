@@ -169,6 +169,15 @@ TEST_CASE("going back to a saved state repeats the run bit for bit") {
   CHECK(run.solver.state() == first);
 }
 
+TEST_CASE("asking for energies before the first step changes no bit of the state") {
+  Model model = tests::net<CableBatch>(tests::wire, 0.1, 9);
+  model.gravity = Vector3(0, 0, -9.81);
+  Run run(std::move(model), 1e-4);
+  const ExplicitState before = run.solver.state();
+  CHECK(run.solver.balance().elastic.front() == Approx(0).margin(1e-12));
+  CHECK(run.solver.state() == before);
+}
+
 TEST_CASE("a step that was prepared, in a state left and come back to, has the bits of one that was not") {
   const auto run_with = [](bool prepares) {
     Model model = tests::net<CableBatch>(tests::wire, 0.1, 9);
