@@ -27,8 +27,9 @@ class WholeParticles final : public test::Stepper {
 int main(int count, char** arguments) {
   if (count != 4) return EXIT_FAILURE;
   const auto scene = dem::read_run_scene(core::SceneFile::load(arguments[2]));
-  const auto model = dem::build_model(scene.particles, dem::make_surface(scene.particles.boundaries),
-                                      {.step = *scene.time.step, .ledger = scene.output.has_value()});
+  auto model = dem::build_model(scene.particles, dem::make_surface(scene.particles.boundaries),
+                                {.step = *scene.time.step, .ledger = scene.output.has_value()});
+  model.skin = 0.2 * model.spheres.front().radius;  // the same searches for both
   const std::size_t before = test::heap_bytes();
   std::unique_ptr<test::Stepper> stepper;
   if (std::string_view(arguments[1]) == "lean")

@@ -52,6 +52,8 @@ particles:
 """
 STONES_WITH = "contacts: [{between: [stone, stone], hertz: {restitution: 0.5}, friction: {%s}%s}]"
 
+GATES = ", ".join(f"at_{k}: {{point: [0, 0, {0.008 * (k - 30):.3f}], normal: [0, 0, -1]}}" for k in range(60))
+
 # Bases, each without any optional effect: program, scene, steps.
 BASES = {"net": ("count_structure", NET, 20), "rope": ("count_structure", ROPE, 40),
          "spheres": ("count_particles", SPHERES, 40)}
@@ -84,7 +86,7 @@ EFFECTS = {
     "friction and rotation": ("spheres", "particles: {%s}" % (STONES_WITH % ("coefficient: 0.5", ""))),
     "falling friction coefficient": ("spheres", "particles: {%s}" % (STONES_WITH % ("at_rest: 0.7, sliding: 0.5, decay_speed: 0.1", ""))),
     "rolling resistance": ("spheres", "particles: {%s}" % (STONES_WITH % ("coefficient: 0.5", ", rolling: {constant_torque: {coefficient: 0.1}}"))),
-    "gates": ("spheres", "particles: {gates: {low: {point: [0, 0, 0], normal: [0, 0, -1]}}}"),
+    "sixty gates": ("spheres", "particles: {gates: {%s}}" % GATES),  # of one, which looks at stones near it only, nothing would be noticed
     "energy ledger": ("spheres", "output: {every: 1 ms}"),
 }
 # What acts before time 0 only: it changes numbers, not steps.

@@ -4,16 +4,15 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "dem_solver/collision/size_classes.hpp"
 #include "dem_solver/integration/leapfrog.hpp"
 
 namespace talus::test {
 
 using namespace dem;
 
-LeanParticles::LeanParticles(const ParticleModel& model) : pairs_(model.pairs), step_(model.step) {
+LeanParticles::LeanParticles(const ParticleModel& model)
+    : pairs_(model.pairs), step_(model.step), skin_(model.skin) {
   spheres_.add(model.spheres, false);
-  skin_ = 0.2 * 0.5 * SizeClasses(spheres_, 0).main_cell();
 }
 
 void LeanParticles::step() {
@@ -22,7 +21,7 @@ void LeanParticles::step() {
   contacts_.evaluate(contact_stage());
   const MotionSummary motion = kick_and_drift(spheres_, {.gravity = {}, .step = step_, .kick = step_});
   if (!motion.finite) throw std::runtime_error("velocities overflow");
-  travelled_ += motion.largest_speed * step_;
+  approached_ += 2 * motion.largest_speed * step_;
 }
 
 ContactStage LeanParticles::contact_stage() {
@@ -39,24 +38,32 @@ ContactStage LeanParticles::contact_stage() {
 }
 
 void LeanParticles::find_neighbours() {
-  if (listed_ && 2 * travelled_ < skin_) return;
-  if (listed_) travelled_ = largest_motion();
-  if (listed_ && 2 * travelled_ < skin_) return;
+  if (listed_ && approached_ < skin_) return;
+  if (listed_) approached_ = largest_approach();
+  if (listed_ && approached_ < skin_) return;
   const auto rebuilt = pair_list_.rebuild(spheres_, skin_, 1);
   contacts_.rebuild(contact_stage(), {rebuilt.moves, {}, {}});
   place_ = spheres_.places();
   listed_position_ = spheres_.position;
-  travelled_ = 0;
+  approached_ = 0;
   listed_ = true;
 }
 
-double LeanParticles::largest_motion() const noexcept {
-  double largest = 0;
+double LeanParticles::largest_approach() const noexcept {
+  const auto moved = [this](Index i) {
+    return triple<double>(spheres_.position[i]) - triple<double>(listed_position_[i]);
+  };
+  Triple<double> sum;
+  for (Index i = 0; i < spheres_.size(); ++i) sum = sum + moved(i);
+  const Triple<double> mean = (1.0 / spheres_.size()) * sum;
+  double most = 0, second = 0;
   for (Index i = 0; i < spheres_.size(); ++i) {
-    const Triple<double> moved = triple<double>(spheres_.position[i]) - triple<double>(listed_position_[i]);
-    largest = std::max(largest, dot(moved, moved));
+    const Triple<double> own = moved(i) - mean;
+    const double squared = dot(own, own);
+    second = std::max(second, std::min(most, squared));
+    most = std::max(most, squared);
   }
-  return std::sqrt(largest);
+  return std::sqrt(most) + std::sqrt(second);
 }
 
 }  // namespace talus::test

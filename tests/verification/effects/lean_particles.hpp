@@ -18,11 +18,11 @@ class LeanParticles final : public Stepper {
  private:
   dem::ContactStage contact_stage();
   void find_neighbours();
-  double largest_motion() const noexcept;
+  double largest_approach() const noexcept;
 
   dem::Spheres spheres_;
   dem::PairTable pairs_;
-  double step_ = 0, skin_ = 0, travelled_ = 0;
+  double step_ = 0, skin_ = 0, approached_ = 0;
   dem::PairList pair_list_;
   dem::PlaneList plane_list_;
   dem::Boundary boundary_;
