@@ -54,7 +54,7 @@ ResultTables::ResultTables(std::filesystem::path folder, const std::vector<const
   std::set<std::string> taken(fixed.begin(), fixed.end());
   for (const auto* source : sources)
     for (std::size_t number = 0; number < source->description().tables.size(); ++number) {
-      SourceTable& table = content_->tables.emplace_back(source, number);
+      SourceTable& table = content_->tables.emplace_back(SourceTable{source, number});
       const std::string file = ResultFolder::table_file(table.description().name);
       if (!taken.insert(file).second) throw UsageError("two tables of a result are named '" + file + "'");
       if (table.description().kind == TableKind::events)

@@ -32,7 +32,7 @@ GateTables::GateTables(const ParticleSolver& solver) : solver_(solver) {
   for (Index k = 0; k < solver.rocks().size(); ++k) add(k, true, solver.rocks().radius(k));
   sieves_ = sieve_of;
   std::ranges::sort(sieves_);
-  sieves_.erase(std::ranges::unique(sieves_).begin(), sieves_.end());
+  sieves_.erase(std::unique(sieves_.begin(), sieves_.end()), sieves_.end());
   for (std::size_t k = 0; k < stones_.size(); ++k)
     stones_[k].size =
         static_cast<std::size_t>(std::ranges::lower_bound(sieves_, sieve_of[k]) - sieves_.begin());
