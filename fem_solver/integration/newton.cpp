@@ -23,7 +23,7 @@ NewtonReport Newton::solve(const NewtonSystem& system, const NewtonOptions& opti
   NewtonReport report;
   slides_.start(displacement);
   evaluate(system, displacement);
-  for (int iteration = 0; !measure(system, options, displacement, report); ++iteration) {
+  for (int iteration = 0; !measure(system, options, report); ++iteration) {
     if (iteration == options.most_iterations || !std::isfinite(report.residuals.back())) return report;
     if (slides_.exists()) solver_.forget_pattern();
     const double shift = solver_.factorise_shifted(tangent(system, displacement));
@@ -64,8 +64,7 @@ SparseMatrix Newton::tangent(const NewtonSystem& system, std::span<const double>
 }
 
 /// Notes the largest residual. @returns whether it is small enough
-bool Newton::measure(const NewtonSystem& system, const NewtonOptions& options, const std::vector<double>&,
-                     NewtonReport& report) {
+bool Newton::measure(const NewtonSystem& system, const NewtonOptions& options, NewtonReport& report) {
   double largest = 0;
   for (Index k = 0; k < equations_.count(); ++k) {
     const double size = std::abs(residual_[static_cast<std::size_t>(equations_.direction(k))]);

@@ -63,8 +63,7 @@ class Newton {
 
  private:
   void evaluate(const NewtonSystem& system, const std::vector<double>& displacement);
-  bool measure(const NewtonSystem& system, const NewtonOptions& options,
-               const std::vector<double>& displacement, NewtonReport& report);
+  bool measure(const NewtonSystem& system, const NewtonOptions& options, NewtonReport& report);
   bool search_along(const NewtonSystem& system, const Eigen::VectorXd& step,
                     std::vector<double>& displacement);
 

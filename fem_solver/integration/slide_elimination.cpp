@@ -114,9 +114,8 @@ void SlideElimination::settle(std::span<const double> displacement, std::span<do
       continue;
     }
     const SlideConstraint here = constraint(displacement, slider);
-    slider.pulls = {force[here.slaves[0]], force[here.slaves[1]]};
     add_followers(slider, here);
-    add_curvature(here, slider);
+    add_curvature(slider, here, force);
   }
   carry_over(residual);
 }
@@ -154,10 +153,12 @@ void SlideElimination::add_followers_of_corner(const Slider& slider) {
         {direction_of(slider.node, axis), {direction_of(slider.line->rope[*slider.corner], axis)}, {1}, 1});
 }
 
-void SlideElimination::add_curvature(const SlideConstraint& constraint, const Slider& slider) {
+void SlideElimination::add_curvature(const Slider& slider, const SlideConstraint& constraint,
+                                     const Vector3& force) {
   const std::array<Index, 3> nodes{slider.line->rope[slider.segment], slider.line->rope[slider.segment + 1],
                                    slider.node};
-  const SlideConstraint::Curvature curvature = constraint.curvature(slider.pulls);
+  const SlideConstraint::Curvature curvature =
+      constraint.curvature({force[constraint.slaves[0]], force[constraint.slaves[1]]});
   const auto equation = [&](int i) {
     return equations_.of(direction_of(nodes[static_cast<std::size_t>(i / 3)], i % 3));
   };

@@ -63,7 +63,6 @@ class SlideElimination {
     std::size_t segment = 0;
     std::optional<std::size_t> corner{};  ///< the rope node it stands at
     bool held = false;
-    std::array<double, 2> pulls{};  ///< N; what its constraints carry on a segment
   };
   const std::vector<Slider>& places() const { return sliders_; }
   void return_to(const std::vector<Slider>& places) { sliders_ = places; }
@@ -82,7 +81,8 @@ class SlideElimination {
   void leave_corner(std::span<const double> displacement, const Vector3& force, Slider& slider) const;
   void add_followers(const Slider& slider, const SlideConstraint& constraint);
   void add_followers_of_corner(const Slider& slider);
-  void add_curvature(const SlideConstraint& constraint, const Slider& slider);
+  /// @param force on the slider, N: what its followers carry turns with the rope
+  void add_curvature(const Slider& slider, const SlideConstraint& constraint, const Vector3& force);
 
   const Model& model_;
   const Equations& equations_;
