@@ -28,6 +28,15 @@ std::string text_of(const Header& header) {
   return {header.abort_text.data(), bytes};
 }
 
+bool have_one_set(const Control& control) {
+  const auto force_of = [&](Role role) {
+    const Channel& channel = control.channels[static_cast<std::size_t>(role)];
+    return channel.arrays[static_cast<std::size_t>(ArrayName::force)];
+  };
+  const ArraySlot structure = force_of(Role::structure), particles = force_of(Role::particles);
+  return structure.count > 0 && structure.count == particles.count && structure.offset == particles.offset;
+}
+
 Command command_of(const CommandRecord& record) {
   return {.action = static_cast<Action>(record.action),
           .fields = record.fields != 0,
@@ -200,9 +209,10 @@ void ChannelParticipant::meter_after() {
   }
 }
 
-/// Only windows that are never taken back.
+/// Only windows that are never taken back, and one set of arrays only once.
 bool ChannelParticipant::is_metered() const {
-  return command_.action == Action::advance && !command_.tentative;
+  const bool other_side_does = one_set_ && options_.role == Role::particles;
+  return command_.action == Action::advance && !command_.tentative && !other_side_does;
 }
 
 void ChannelParticipant::begin_metering() {
@@ -224,6 +234,7 @@ void ChannelParticipant::map_arrays() {
     const std::uint64_t expected = name == ArrayName::outputs ? output_arrays_.size() : values;
     arrays_[i] = checked_array(data, slot, may_be_absent && slot.count == 0 ? 0 : expected);
   }
+  one_set_ = have_one_set(control_);
 }
 
 std::span<double> ChannelParticipant::outputs() const {

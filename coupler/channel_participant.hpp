@@ -56,7 +56,8 @@ class ChannelParticipant final : public Participant {
   }
   void map_arrays();
   // The ledger of the interface: each side sums the work on its own surface, whose values its core has just
-  // written or is about to read. In windows that may be taken back the coupler does, once they are accepted.
+  // written or is about to read; where both sides have the same arrays, the structure does for both. In windows
+  // that may be taken back the coupler does, once they are accepted.
   void meter_before();
   void meter_after();
   bool is_metered() const;
@@ -78,6 +79,7 @@ class ChannelParticipant final : public Participant {
   std::size_t surface_nodes_ = 0;
   OutputArrays output_arrays_;
   std::array<std::span<double>, transport::array_count> arrays_;
+  bool one_set_ = false;  ///< both sides have the same arrays
   std::uint64_t last_heartbeat_ = 0;
   double last_heartbeat_at_ = 0;  ///< s into the present wait
 };

@@ -120,7 +120,7 @@ void Exchange::archive(core::StateArchive& archive) {
     array(name + "_end_velocity", side->end_velocity);
     array(name + "_free_velocity", side->free_velocity);
   }
-  std::vector<double> works{structure_.peer.work(), particles_.peer.work()};
+  std::vector<double> works{work_on_structure(), work_on_boundary()};
   archive.values("works", works);
   structure_.peer.work() = works[0];
   particles_.peer.work() = works[1];

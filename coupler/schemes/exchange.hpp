@@ -73,8 +73,8 @@ class Exchange {
   /// Work since the start, J.
   double work_on_structure() const { return structure_.peer.work(); }
   /// Of windows of weak schemes up to the last command: what the last window's forces did is known once the
-  /// particles meet the boundary's new place.
-  double work_on_boundary() const { return particles_.peer.work(); }
+  /// particles meet the boundary's new place. Where both sides have the same arrays, the structure's sum.
+  double work_on_boundary() const { return one_set_ ? work_on_structure() : particles_.peer.work(); }
   /// The arrays of both sides and the works: all that later windows depend on.
   void archive(core::StateArchive& archive);
   /// Whether the particles' last forces are not all zero.
