@@ -228,8 +228,8 @@ void ChannelParticipant::map_arrays() {
   const std::uint64_t values = 3 * surface_nodes_;
   for (std::size_t i = 0; i < array_count; ++i) {
     const auto name = static_cast<ArrayName>(i);
-    const bool may_be_absent = name == ArrayName::end_displacement || name == ArrayName::end_velocity ||
-                               name == ArrayName::free_velocity;
+    const bool may_be_absent = name != ArrayName::force && name != ArrayName::displacement &&
+                               name != ArrayName::velocity && name != ArrayName::outputs;
     const ArraySlot& slot = channel_.arrays[i];
     const std::uint64_t expected = name == ArrayName::outputs ? output_arrays_.size() : values;
     arrays_[i] = checked_array(data, slot, may_be_absent && slot.count == 0 ? 0 : expected);
@@ -257,6 +257,8 @@ ParticleFields ChannelParticipant::particle_fields() {
           .end_displacement = array(ArrayName::end_displacement),
           .end_velocity = array(ArrayName::end_velocity),
           .free_velocity = array(ArrayName::free_velocity),
+          .moved_displacement = array(ArrayName::moved_displacement),
+          .moved_velocity = array(ArrayName::moved_velocity),
           .force = array(ArrayName::force)};
 }
 

@@ -74,7 +74,9 @@ struct Declaration {
       false;  ///< the scene allows a step above a stability limit; else the coupler refuses it before time 0
   bool free_velocity = false;  ///< structure: it can fill StructureFields::free_velocity; particles: they
                                ///< need it
-  bool checkpoints = false;    ///< it answers write_checkpoint and read_checkpoint
+  bool light_boundary =
+      false;  ///< particles: they can fill ParticleFields::moved_displacement and moved_velocity
+  bool checkpoints = false;  ///< it answers write_checkpoint and read_checkpoint
   std::vector<StepLimit> limits{};
   std::vector<Effect> effects{};
   core::OutputDescription outputs{};
@@ -104,7 +106,10 @@ struct ParticleFields {
   std::span<const double> end_velocity;  ///< m/s; likewise
   std::span<const double> free_velocity;  ///< m/s; the boundary's a step after start_velocity if nothing
                                           ///< touched it; empty where it was not asked for
-  std::span<double> force;                ///< N; that Ω_D receives, mean over the window
+  /// Where Ω_D is at the window's end if it moves as given and each node, besides, answers to its contact
+  /// forces with its mass alone (m, m/s). Empty: Ω_D moves as given, whatever the forces.
+  std::span<double> moved_displacement, moved_velocity;
+  std::span<double> force;  ///< N; that Ω_D receives, mean over the window
 };
 
 struct JoinOptions {

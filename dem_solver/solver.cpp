@@ -219,6 +219,10 @@ void ParticleSolver::report_not_finite() const {
       {.what = "velocities overflow", .entity = "all spheres", .step = steps_done_, .time = time()});
 }
 
+LeapfrogStep ParticleSolver::last_leap() const noexcept {
+  return {.gravity = gravity_, .step = previous_step_, .kick = kick_};
+}
+
 double ParticleSolver::gravity_work_level() const noexcept {
   // After a step the positions are one drift ahead of the last forces.
   const double back = previous_step_;
@@ -236,17 +240,18 @@ double ParticleSolver::gravity_work_level() const noexcept {
 }
 
 void ParticleSolver::add_spheres_to(ParticleLedger& ledger) const noexcept {
-  const double back = kick_;
+  const LeapfrogStep last = last_leap();
   for (Index i = 0; i < spheres_.size(); ++i) {
     if (spheres_.in_rock(i)) continue;
     const double mass = spheres_.velocity[i].w, radius = spheres_.position[i].w;
     const Triple<double> v = triple<double>(spheres_.velocity[i]);
-    const Triple<double> before = v - back * ((1 / mass) * triple<double>(spheres_.force[i]) + gravity_);
-    ledger.kinetic += 0.5 * mass * dot(v, before);
+    const Triple<double> acceleration = (1 / mass) * triple<double>(spheres_.force[i]) + gravity_;
+    const Triple<double> before = v - last.kick * acceleration;
+    ledger.kinetic += 0.5 * mass * (dot(v, before) - product_of_unequal_steps(last, v, acceleration));
     if (!spheres_.rotates()) continue;
     const double inertia = 0.4 * mass * radius * radius;
     const Triple<double> w = triple<double>(spheres_.spin[i]);
-    ledger.rotation += 0.5 * inertia * dot(w, w - (back / inertia) * triple<double>(spheres_.torque[i]));
+    ledger.rotation += 0.5 * inertia * dot(w, w - (last.kick / inertia) * triple<double>(spheres_.torque[i]));
   }
 }
 
@@ -254,7 +259,7 @@ ParticleLedger ParticleSolver::ledger() const noexcept {
   ParticleLedger ledger{.damping = work_.damping, .friction = work_.friction, .boundary = work_.boundary};
   add_spheres_to(ledger);
   for (Index k = 0; k < rocks_.size(); ++k) {
-    const Rocks::Energy energy = rocks_.energy(k, gravity_, kick_);
+    const Rocks::Energy energy = rocks_.energy(k, last_leap());
     ledger.kinetic += energy.translation;
     ledger.rotation += energy.rotation;
   }

@@ -126,6 +126,7 @@ class ParticleSolver {
   double gravity_work_level() const noexcept;
   /// s; the velocity of the first step belongs to the middle of one as long before it
   double last_step() const noexcept { return steps_done_ > 0 ? previous_step_ : step_; }
+  LeapfrogStep last_leap() const noexcept;
   void add_spheres_to(ParticleLedger& ledger) const noexcept;
 
   Spheres spheres_;

@@ -55,10 +55,13 @@ class SchemeChoice {
   void operator()(const SerialExplicitScene&) { use_once(SerialExplicit{}); }
   void operator()(const ParallelExplicitScene&) { use_once(ParallelExplicit{}); }
   void operator()(const SerialImplicitScene& scene) {
-    if (scene.relax == SerialImplicitScene::Relax::motion) {
-      use_implicit(MotionUnknown(exchange_), scene.common);
-    } else {
-      use_implicit(ForceUnknown(exchange_), scene.common);
+    switch (scene.relax) {
+      case SerialImplicitScene::Relax::motion:
+        return use_implicit(MotionUnknown(exchange_), scene.common);
+      case SerialImplicitScene::Relax::force:
+        return use_implicit(ForceUnknown(exchange_), scene.common);
+      case SerialImplicitScene::Relax::free_motion:
+        return use_implicit(FreeMotionUnknown(exchange_), scene.common);
     }
   }
   void operator()(const ParallelImplicitScene& scene) {

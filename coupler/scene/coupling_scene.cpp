@@ -65,8 +65,10 @@ void describe(core::Fields& fields, ToleranceScene& tolerance) {
 }
 
 void describe(core::Fields& fields, SerialImplicitScene& scheme) {
-  fields.choice("relax", scheme.relax, {"motion", "force"},
-                "what is iterated on: the boundary's motion or the contact forces");
+  fields.choice(
+      "relax", scheme.relax, {"motion", "force", "free_motion"},
+      "what is iterated on: the boundary's motion, the contact forces, or the motion less what light "
+      "nodes answer to them by themselves, for hard contacts in long windows");
   describe_common(fields, scheme.common);
 }
 
@@ -108,6 +110,9 @@ const ImplicitScene* CouplingScene::implicit() const {
 }
 
 Order CouplingScene::order() const {
+  const auto* serial = std::get_if<SerialImplicitScene>(&scheme);
+  if (serial != nullptr && serial->relax == SerialImplicitScene::Relax::free_motion)
+    return Order::iterated_light;
   if (implicit() != nullptr) return Order::iterated;
   return std::holds_alternative<ParallelExplicitScene>(scheme) ? Order::together : Order::in_turn;
 }

@@ -53,7 +53,7 @@ struct ImplicitScene {
   AccelerationScene acceleration;
 };
 struct SerialImplicitScene {
-  enum class Relax { motion, force };
+  enum class Relax { motion, force, free_motion };
   Relax relax = Relax::motion;
   ImplicitScene common;
 };

@@ -18,7 +18,9 @@ Exchange::Side side(Session& session, Role role) {
           .velocity = peer.array(ArrayName::velocity),
           .end_displacement = peer.array(ArrayName::end_displacement),
           .end_velocity = peer.array(ArrayName::end_velocity),
-          .free_velocity = peer.array(ArrayName::free_velocity)};
+          .free_velocity = peer.array(ArrayName::free_velocity),
+          .moved_displacement = peer.array(ArrayName::moved_displacement),
+          .moved_velocity = peer.array(ArrayName::moved_velocity)};
 }
 
 }  // namespace

@@ -26,6 +26,8 @@ class Exchange {
     std::span<double> end_displacement,
         end_velocity;                 ///< empty: the particles do not look at the window's end
     std::span<double> free_velocity;  ///< empty: the particles do not ask for it
+    std::span<double> moved_displacement,
+        moved_velocity;  ///< empty: the boundary moves as it is told
   };
 
   /// @pre the session's arrays are laid out; `mapping` lives as long as this

@@ -71,6 +71,44 @@ std::array<FieldChange, 3> MotionUnknown::changes(const Window& window) const {
           FieldChange{FieldName::force, force_before_, exchange_.particles().force}};
 }
 
+FreeMotionUnknown::FreeMotionUnknown(Exchange& exchange)
+    : exchange_(exchange),
+      x_(2 * exchange.particles().force.size()),
+      made_(x_.size()),
+      structure_motion_(x_.size()),
+      boundary_motion_(x_.size()),
+      force_before_(x_.size() / 2) {}
+
+void FreeMotionUnknown::predict(const Window& window, Predictor predictor) {
+  predict_motion(exchange_, window, predictor, x_);
+  copy(exchange_.particles().force, force_before_);
+}
+
+void FreeMotionUnknown::evaluate(const Window& window, int iteration) {
+  auto& boundary = exchange_.particles();
+  const std::size_t half = x_.size() / 2;
+  if (iteration > 0) copy(boundary.force, force_before_);
+  set_boundary_end(exchange_, window.length(), x_);
+  exchange_.advance_particles(window, iteration);
+  // From here on the end is where the boundary went: the path of its work.
+  copy(boundary.moved_displacement, boundary.end_displacement);
+  copy(boundary.moved_velocity, boundary.end_velocity);
+  copy(boundary.end_displacement, std::span(boundary_motion_).first(half));
+  copy_scaled(boundary.end_velocity, window.length(), std::span(boundary_motion_).last(half));
+  exchange_.load_structure(boundary.force);
+  exchange_.advance_structure(window, iteration);
+  gather_motion(exchange_, window.length(), structure_motion_);
+  for (std::size_t i = 0; i < x_.size(); ++i) made_[i] = x_[i] + (structure_motion_[i] - boundary_motion_[i]);
+}
+
+std::array<FieldChange, 3> FreeMotionUnknown::changes(const Window& window) const {
+  const std::span<const double> before(boundary_motion_), after(structure_motion_);
+  const std::size_t half = before.size() / 2;
+  return {FieldChange{FieldName::displacement, before.first(half), after.first(half)},
+          FieldChange{FieldName::velocity, before.last(half), after.last(half), 1 / window.length()},
+          FieldChange{FieldName::force, force_before_, exchange_.particles().force}};
+}
+
 ForceUnknown::ForceUnknown(Exchange& exchange)
     : exchange_(exchange),
       x_(exchange.particles().force.size()),

@@ -39,6 +39,31 @@ class MotionUnknown {
   std::vector<double> x_, made_, force_before_;
 };
 
+/// x = (u, L v) of Ω_D at the window's end, less what its nodes answer to the contact forces with their mass
+/// alone: the particles add that themselves, step by step (LightNodes). Particles, then structure; H(x) = x +
+/// (structure's motion) - (where the particles took the boundary), so at the fixed point both agree.
+///
+/// A contact of stiffness k and dashpot c on a node of mass m changes the force by (k L^2/4m + c L/2m) times
+/// what its motion is wrong by: that is the gain of "relax the motion", hundreds for the dashpot of a rock on
+/// a light node. Here the node moves with the force, which then changes by at most m/L times an error of v,
+/// however hard the contact. The structure answers with L/(m + L^2 K/4) where the particles assumed L/m, K
+/// the structure's stiffness at the node, so the gain is (L^2 K/4)/(m + L^2 K/4), below 1 for every window.
+/// It is a Robin condition on the particles' side [Badia, Nobile, Vergara 2008, J. Comput. Phys. 227, 7027].
+/// Test: "a dashpot far too hard for the node's mass ..." in implicit_test.cpp.
+class FreeMotionUnknown {
+ public:
+  explicit FreeMotionUnknown(Exchange& exchange);
+  void predict(const Window& window, Predictor predictor);
+  void evaluate(const Window& window, int iteration);
+  std::span<double> x() { return x_; }
+  std::span<const double> made() const { return made_; }
+  std::array<FieldChange, 3> changes(const Window& window) const;
+
+ private:
+  Exchange& exchange_;
+  std::vector<double> x_, made_, structure_motion_, boundary_motion_, force_before_;
+};
+
 /// x = f on Ω_D; structure, then particles: the variant "relax the force".
 class ForceUnknown {
  public:

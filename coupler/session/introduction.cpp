@@ -104,6 +104,18 @@ std::optional<Interface> introduce(Session& session, const std::optional<Interfa
   return interface;
 }
 
+namespace {
+
+void refuse_heavy_boundary(const Peer& particles) {
+  if (particles.declaration().light_boundary) return;
+  throw core::ConfigError(fmt::format(
+      "coupling.serial_implicit.relax: 'free_motion' needs particles that move the boundary's light "
+      "nodes with the contact forces; {} does not",
+      particles.declaration().program));
+}
+
+}  // namespace
+
 bool needs_free_velocity(Session& session, double window_length) {
   const Peer *structure = session.find(Role::structure), *particles = session.find(Role::particles);
   if (!structure || !particles || !particles->declaration().free_velocity) return false;
@@ -123,7 +135,8 @@ bool needs_free_velocity(Session& session, double window_length) {
 void lay_out_arrays(Session& session, const std::optional<Interface>& interface, const WindowLengths& windows,
                     Order order) {
   const bool free_velocity = needs_free_velocity(session, windows.regular);
-  if (free_velocity && order == Order::iterated)
+  const bool iterated = order == Order::iterated || order == Order::iterated_light;
+  if (free_velocity && iterated)
     throw core::ConfigError(
         "particles.implicit_contact is for the explicit schemes of 'coupling'; a strong scheme iterates "
         "instead");
@@ -138,10 +151,14 @@ void lay_out_arrays(Session& session, const std::optional<Interface>& interface,
     }
     if (free_velocity) Session::request_array(*peer, ArrayName::free_velocity, values);
     if (is_structure) continue;
-    needs_end = order == Order::iterated || peer->declaration().takes_several_steps(windows.longest);
+    needs_end = iterated || peer->declaration().takes_several_steps(windows.longest);
     if (!needs_end) continue;
     Session::request_array(*peer, ArrayName::end_displacement, values);
     Session::request_array(*peer, ArrayName::end_velocity, values);
+    if (order != Order::iterated_light) continue;
+    refuse_heavy_boundary(*peer);
+    Session::request_array(*peer, ArrayName::moved_displacement, values);
+    Session::request_array(*peer, ArrayName::moved_velocity, values);
   }
   const bool one_set =
       interface && order == Order::in_turn && !needs_end && interface->tie.mapping.is_identity();

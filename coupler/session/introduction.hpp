@@ -45,6 +45,7 @@ enum class Order {
   in_turn,   ///< one after the other: where Ω_D is Ω_S, both use the same arrays and nothing is copied
   together,  ///< at the same time: each has its own
   iterated,  ///< again and again: the particles also get the boundary at the window's end
+  iterated_light,  ///< likewise, and say where its light nodes went under the contact forces
 };
 
 /// s

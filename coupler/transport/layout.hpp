@@ -20,7 +20,7 @@
 namespace talus::coupler::transport {
 
 inline constexpr std::uint64_t magic_number = 0x314C505553554C54;  // "TLUSUPL1"
-inline constexpr std::uint32_t layout_version = 4;
+inline constexpr std::uint32_t layout_version = 5;
 inline constexpr std::size_t role_count = 2;
 inline constexpr std::size_t array_alignment = 64;
 
@@ -42,6 +42,8 @@ enum class ArrayName : std::uint32_t {
   end_displacement,
   end_velocity,
   free_velocity,
+  moved_displacement,
+  moved_velocity,
   outputs,
   count
 };

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <optional>
 
 #include "core/errors.hpp"
 #include "core/program/command_line.hpp"
 #include "dem_solver/app/particle_run.hpp"
+#include "dem_solver/boundary/light_nodes.hpp"
 #include "dem_solver/output/checkpoint.hpp"
 
 namespace talus::dem {
@@ -37,6 +39,7 @@ coupler::Declaration declaration_of(const RunScene& scene, const ParticleRun& ru
   declaration.step = own_step(scene).value_or(0);
   declaration.insists_on_step = scene.particles.unstable_step == ParticlesScene::UnstableStep::allowed;
   declaration.free_velocity = scene.particles.implicit_contact.has_value() && has_interface;
+  declaration.light_boundary = has_interface;
   declaration.checkpoints = true;
   declaration.outputs = run.output.description();
   for (const ParticleStepLimit& limit : run.limits)
@@ -49,8 +52,13 @@ coupler::Declaration declaration_of(const RunScene& scene, const ParticleRun& ru
 /// Answers the commands of one run.
 class Server {
  public:
-  Server(const RunScene& scene, ParticleRun& run, coupler::Participant& participant, Index first_node)
-      : own_step_(own_step(scene)), run_(run), participant_(participant), first_node_(first_node) {}
+  Server(const RunScene& scene, ParticleRun& run, coupler::Participant& participant,
+         const CoupledBoundary& boundary)
+      : own_step_(own_step(scene)),
+        run_(run),
+        participant_(participant),
+        first_node_(boundary.first_node),
+        light_nodes_(boundary.node_masses, boundary.first_node) {}
 
   void serve() {
     for (Command command = participant_.next(); command.action != Action::finish;
@@ -96,14 +104,26 @@ class Server {
     std::ranges::fill(fields.force, 0.0);
     const Boundary::Motion motion{fields.start_displacement, fields.start_velocity, fields.end_displacement,
                                   fields.end_velocity, first_node_};
+    const bool light = !fields.moved_displacement.empty();
+    if (light) light_nodes_.begin_window();
     for (std::int64_t k = 0; k < steps; ++k) {
       if (!run_.solver.boundary().empty())
         run_.solver.boundary().move(motion, static_cast<double>(k) / static_cast<double>(steps));
+      if (light) light_nodes_.displace(run_.solver.boundary());
       if (!fields.free_velocity.empty())
         run_.solver.boundary().set_free_velocity(fields.free_velocity, first_node_);
       run_.solver.step();
+      if (light) light_nodes_.answer(run_.solver.boundary(), run_.solver.step_length());
       add_reactions(fields.force, 1.0 / static_cast<double>(steps));
     }
+    if (light) tell_where_nodes_went(fields);
+  }
+
+  void tell_where_nodes_went(const coupler::ParticleFields& fields) const {
+    const auto add = std::plus<>{};
+    std::ranges::transform(fields.end_displacement, light_nodes_.displacement(),
+                           fields.moved_displacement.begin(), add);
+    std::ranges::transform(fields.end_velocity, light_nodes_.velocity(), fields.moved_velocity.begin(), add);
   }
 
   void add_reactions(std::span<double> force, double share) const {
@@ -122,6 +142,7 @@ class Server {
   ParticleRun& run_;
   coupler::Participant& participant_;
   Index first_node_;
+  LightNodes light_nodes_;
   std::optional<ParticleSolver> saved_;
 };
 
@@ -134,7 +155,7 @@ void serve_particles(const core::SceneFile& file, coupler::Participant& particip
   if (scene.particles.implicit_contact)
     run.solver.boundary().set_node_masses(boundary.node_masses, boundary.first_node);
   participant.declare(declaration_of(scene, run, !boundary.node_masses.empty()));
-  Server(scene, run, participant, boundary.first_node).serve();
+  Server(scene, run, participant, boundary).serve();
 }
 
 }  // namespace talus::dem

@@ -51,6 +51,15 @@ void Boundary::set(std::vector<double>& values, Index node, const Triple<double>
   to[2] = v.z;
 }
 
+void Boundary::displace(const Addition& addition) noexcept {
+  for (std::size_t i = 0; i < addition.displacement.size() / 3; ++i) {
+    const double *d = &addition.displacement[3 * i], *w = &addition.velocity[3 * i];
+    Row &x = position_[i + addition.first_node], &v = velocity_[i + addition.first_node];
+    x = row(triple<double>(x) + Triple<double>{d[0], d[1], d[2]});
+    v = row(triple<double>(v) + Triple<double>{w[0], w[1], w[2]});
+  }
+}
+
 void Boundary::set_velocity(Index part, const Triple<double>& velocity) {
   for (Index i = 0; i < node_count(); ++i) {
     if (part_of_node_[i] != part) continue;

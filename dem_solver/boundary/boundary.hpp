@@ -55,6 +55,12 @@ class Boundary {
   /// Sets the nodes to the state at a fraction of the way from start to end. @pre fraction == 0 where the end
   /// is empty
   void move(const Motion& motion, double fraction) noexcept;
+  /// Adds a displacement and a velocity, 3 values a node, to those of the nodes from `first_node` on.
+  struct Addition {
+    std::span<const double> displacement, velocity;
+    Index first_node = 0;
+  };
+  void displace(const Addition& addition) noexcept;
   /// Prescribed motion: every node of a part keeps a velocity; positions follow from the time since the
   /// reference state.
   void set_velocity(Index part, const Triple<double>& velocity);

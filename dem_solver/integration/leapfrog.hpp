@@ -11,6 +11,14 @@ struct LeapfrogStep {
   int threads = 1;
 };
 
+/// m^2/s^2; what v.v_before has to be diminished by where the step before was shorter, to be the product at
+/// the time of the forces all the same: (h_2 - h_1)/2 a.v with v at that time. Zero in steps of one length.
+/// @param velocity after the step (m/s), `acceleration` in it (m/s^2)
+inline double product_of_unequal_steps(const LeapfrogStep& last, const Triple<double>& velocity,
+                                       const Triple<double>& acceleration) noexcept {
+  return (last.step - last.kick) * dot(acceleration, velocity - (0.5 * last.step) * acceleration);
+}
+
 /// What a step tells about the motion as a whole.
 struct MotionSummary {
   double largest_speed = 0;  ///< m/s

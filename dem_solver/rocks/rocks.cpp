@@ -72,12 +72,15 @@ void Rocks::move(const Spheres& spheres, std::span<const Index> place, const Lea
   }
 }
 
-Rocks::Energy Rocks::energy(Index k, const Triple<double>& gravity, double kick_back) const noexcept {
-  const Triple<double> before = velocity_[k] - kick_back * ((1 / mass_[k]) * force_[k] + gravity);
-  const Triple<double> momentum_before = momentum_[k] - kick_back * torque_[k];
+Rocks::Energy Rocks::energy(Index k, const LeapfrogStep& last) const noexcept {
+  const Triple<double> acceleration = (1 / mass_[k]) * force_[k] + last.gravity;
+  const Triple<double> before = velocity_[k] - last.kick * acceleration;
+  const Triple<double> momentum_before = momentum_[k] - last.kick * torque_[k];
   const Triple<double> w =
-      angular_velocity(kick_back > 0 ? orientation_before_[k] : orientation_[k], momentum_[k], moments_[k]);
-  return {0.5 * mass_[k] * dot(velocity_[k], before), 0.5 * dot(w, momentum_before)};
+      angular_velocity(last.kick > 0 ? orientation_before_[k] : orientation_[k], momentum_[k], moments_[k]);
+  const double product =
+      dot(velocity_[k], before) - product_of_unequal_steps(last, velocity_[k], acceleration);
+  return {0.5 * mass_[k] * product, 0.5 * dot(w, momentum_before)};
 }
 
 }  // namespace talus::dem

@@ -60,11 +60,12 @@ class Rocks {
     return angular_velocity(orientation_[k], momentum, moments_[k]);
   }
 
-  /// J; at the time level of the last forces: 1/2 m v.v_before and 1/2 w.L_before, before the last kick (s).
+  /// J; at the time level of the last forces: 1/2 m v.v_before and 1/2 w.L_before.
   struct Energy {
     double translation = 0, rotation = 0;
   };
-  Energy energy(Index k, const Triple<double>& gravity, double kick_back) const noexcept;
+  /// @param last the step that led here; of length 0 before the first
+  Energy energy(Index k, const LeapfrogStep& last) const noexcept;
 
   template <class Self, class Visitor>
   static void visit_state(Self& self, Visitor&& visit) {

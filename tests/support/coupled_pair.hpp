@@ -14,7 +14,7 @@ namespace talus::test {
 class CoupledPair {
  public:
   CoupledPair(ParticipantThread::Serve structure, ParticipantThread::Serve particles,
-              const coupler::WindowLengths& windows) {
+              const coupler::WindowLengths& windows, coupler::Order order = coupler::Order::iterated) {
     session_.await(coupler::Role::structure);
     session_.await(coupler::Role::particles);
     threads_[0] =
@@ -23,7 +23,7 @@ class CoupledPair {
         std::make_unique<ParticipantThread>(segment_, coupler::Role::particles, std::move(particles));
     session_.wait_joined();
     interface_ = coupler::introduce(session_, coupler::identical_surfaces());
-    coupler::lay_out_arrays(session_, interface_, windows, coupler::Order::iterated);
+    coupler::lay_out_arrays(session_, interface_, windows, order);
     exchange_.emplace(session_, interface_->tie.mapping);
   }
   ~CoupledPair() { session_.abort("the test is over"); }

@@ -205,6 +205,71 @@ TEST_CASE("a window that does not converge at its shortest is an error that says
                     Catch::Contains("of window 7, halved 2 times"));
 }
 
+namespace {
+
+/// A dashpot that holds the node, in many steps a window; the node answers with its mass where it is asked
+/// to.
+void serve_dashpot(Participant& participant, double damping, int steps) {
+  std::vector<double> masses;
+  participant.receive_surface(masses);
+  participant.declare({.program = "dashpot", .step = 1e-12, .light_boundary = true});
+  for (auto command = participant.next(); command.action != Action::finish; command = participant.next()) {
+    const auto fields = participant.particle_fields();
+    if (command.action == Action::advance) {
+      const double step = command.length / steps, gain = fields.moved_velocity.empty() ? 0 : step / masses[0];
+      double answer = 0, path = 0, impulse = 0;
+      for (int k = 0; k < steps; ++k) {
+        const double share = static_cast<double>(k) / steps;
+        const double given = (1 - share) * fields.start_velocity[2] + share * fields.end_velocity[2];
+        const double force = -damping * (given + answer);
+        answer += gain * force;
+        path += step * answer;
+        impulse += step * force;
+      }
+      fields.force[2] = impulse / command.length;
+      if (gain > 0) {
+        fields.moved_displacement[2] = fields.end_displacement[2] + path;
+        fields.moved_velocity[2] = fields.end_velocity[2] + answer;
+      }
+    }
+    participant.answer();
+  }
+}
+
+}  // namespace
+
+TEST_CASE(
+    "a dashpot far too hard for the node's mass takes a few iterations where the particles move the node") {
+  const HeldMass system;
+  // The node stops within a hundredth of the window; "relax the motion" multiplies its error by c L/2m = 50.
+  constexpr double length = 0.01, windows_a_stop = 100;
+  const double damping = windows_a_stop * system.mass / length;
+  const auto run = [&](auto make_unknown, Order order) {
+    test::CoupledPair pair([&](auto& p) { serve_mass(p, system); },
+                           [&](auto& p) { serve_dashpot(p, damping, 1000); }, {length}, order);
+    Implicit scheme(make_unknown(pair.exchange()), NoAcceleration{}, tolerance(50), Predictor::linear);
+    scheme.compute(pair.exchange(), {.index = 0, .unit = length});
+    return std::pair{pair.velocity(), scheme.tally().most};
+  };
+  CHECK_THROWS_WITH(run([](Exchange& e) { return MotionUnknown(e); }, Order::iterated),
+                    Catch::Contains("has not converged"));
+  const auto [velocity, iterations] =
+      run([](Exchange& e) { return FreeMotionUnknown(e); }, Order::iterated_light);
+  // The gain is (L^2 K/4)/(m + L^2 K/4), K of the structure's spring, which HeldMass has not: nothing is left
+  // to iterate on but round-off.
+  CHECK(iterations < 6);
+  CHECK(std::abs(velocity) < 1e-3 * system.velocity);
+}
+
+TEST_CASE("particles that do not move light nodes are refused where the scheme asks them to") {
+  const HeldMass system;
+  Spring spring;
+  CHECK_THROWS_WITH(
+      test::CoupledPair([&](auto& p) { serve_mass(p, system); },
+                        [&](auto& p) { spring.serve(p, system.stiffness); }, {0.01}, Order::iterated_light),
+      Catch::Contains("'free_motion' needs particles that move the boundary's light nodes"));
+}
+
 TEST_CASE("a strong impact keeps the energy and finds the peak where the weak scheme loses both") {
   // Mass ratio 100; the window is ten times what plain iteration allows, 2 sqrt(m/k) = 0.9 ms being the
   // limit.

@@ -26,11 +26,17 @@ TEST_CASE("Free fall is exact in steps of changing length") {
   model.gravity = {0, 0, -g};
   model.spheres = {c.sphere({0, 0, 5}, {0, 0, 1})};
   ParticleSolver solver(model);
+  double before = c.step;
   for (const double step : {1e-3, 4e-3, 0.5e-3, 0.5e-3, 7e-3, 1e-3}) {
     solver.set_clock({.time = solver.time(), .step = step});
     solver.step();
     const double time = solver.time(), v0 = 1 - g * c.step / 2;
     CHECK(position(solver, 0).z == Approx(5 + v0 * time - g * time * time / 2).margin(1e-12));
+    // The energy of a leapfrog at the time of its forces: 1/2 m (v^2 - h_1 h_2 g^2/4).
+    const double at_forces = time - step, v = v0 - g * at_forces;
+    CHECK(solver.ledger().kinetic ==
+          Approx(0.5 * c.mass() * (v * v - before * step * g * g / 4)).epsilon(1e-12));
+    before = step;
   }
 }
 

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "dem_solver/boundary/boundary.hpp"
+
+namespace talus::dem {
+
+/// Boundary nodes that, besides the motion they are given, answer to their contact forces with their own
+/// mass:
+///
+///     w_n+1 = w_n + h r_n/m        d_n+1 = d_n + h w_n+1        from w = d = 0 at a window's start
+///
+///     d, w   displacement, velocity   m, m/s   of a node, added to what it is given
+///     r      reaction                 N        of its contacts at the step's start
+///     m      mass                     kg       behind the node; infinite or 0: it moves as given
+///     h      step                     s        below the limits of a contact on m, docs/step_limits.md
+///
+/// A rock's contact with a node a thousand times lighter cannot be computed against a boundary of prescribed
+/// motion over more than a few microseconds: the dashpot would push as if nothing gave way. Test: "a light
+/// boundary gives way as a free mass does" in light_nodes.cpp.
+class LightNodes {
+ public:
+  /// @param masses kg; of the boundary's nodes from `first` on
+  LightNodes(std::span<const double> masses, Index first);
+
+  void begin_window() noexcept;
+  /// Adds the answer so far to the boundary's motion, which was given anew for this step.
+  void displace(Boundary& boundary) const noexcept;
+  /// The answer to the reactions of the step just done. @param step s
+  void answer(const Boundary& boundary, double step) noexcept;
+
+  /// Of all nodes from `first` on, 3 values each.
+  std::span<const double> displacement() const noexcept { return displacement_; }
+  std::span<const double> velocity() const noexcept { return velocity_; }
+
+ private:
+  Index first_;
+  std::vector<double> inverse_mass_;             ///< 1/kg
+  std::vector<double> displacement_, velocity_;  ///< m, m/s
+};
+
+}  // namespace talus::dem

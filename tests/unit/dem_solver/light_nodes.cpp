@@ -1,0 +1,56 @@
+#include "dem_solver/boundary/light_nodes.hpp"
+
+#include <catch2/catch.hpp>
+#include <limits>
+
+using namespace talus;
+using namespace talus::dem;
+
+namespace {
+
+/// One wire between two nodes.
+Boundary one_wire() {
+  mesh::Surface surface{.positions = {0, 0, 0, 1, 0, 0}, .segments = {{0, 1}}};
+  surface.parts = {{.name = "wire", .segment_end = 1}};
+  return Boundary(surface, std::vector<Index>{0});
+}
+
+}  // namespace
+
+TEST_CASE("a light boundary gives way as a free mass does, and a held node not at all") {
+  constexpr double mass = 0.04, force = 30, step = 4e-6;
+  constexpr int steps = 125;
+  Boundary boundary = one_wire();
+  LightNodes nodes(std::vector<double>{mass, std::numeric_limits<double>::infinity()}, 0);
+  nodes.begin_window();
+  for (int k = 0; k < steps; ++k) {
+    boundary.clear_reactions();
+    boundary.react(boundary.features()[0], {0.5, 0.5, 0},
+                   {0, 0, force});  // on the sphere; a half on each node
+    nodes.answer(boundary, step);
+  }
+  const double acceleration = -0.5 * force / mass;
+  CHECK(nodes.velocity()[2] == Approx(acceleration * steps * step).epsilon(1e-12));
+  CHECK(nodes.displacement()[2] ==
+        Approx(acceleration * step * step * steps * (steps + 1) / 2).epsilon(1e-12));
+  CHECK(nodes.velocity()[5] == 0);
+  CHECK(nodes.displacement()[5] == 0);
+}
+
+TEST_CASE(
+    "the answer of light nodes is added to the motion they are given, and forgotten in the next window") {
+  Boundary boundary = one_wire();
+  LightNodes nodes(std::vector<double>{2, 2}, 0);
+  boundary.react(boundary.features()[0], {1, 0, 0}, {0, 0, -8});
+  nodes.answer(boundary, 0.5);
+  const std::vector<double> given{0.1, 0, 0, 0, 0, 0}, speed{0, 3, 0, 0, 0, 0};
+  boundary.move({.start_displacement = given, .start_velocity = speed}, 0);
+  nodes.displace(boundary);
+  CHECK(boundary.position()[0].x == 0.1);
+  CHECK(boundary.position()[0].z == 0.5 * (0.5 * 8 / 2));
+  CHECK(boundary.velocity()[0].y == 3);
+  CHECK(boundary.velocity()[0].z == 0.5 * 8 / 2);
+  CHECK(boundary.position()[1].z == 0);
+  nodes.begin_window();
+  CHECK(nodes.velocity()[2] == 0);
+}
