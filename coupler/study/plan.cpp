@@ -66,7 +66,8 @@ class Planner {
       return;
     }
     std::vector<Setting> settings = method.second.set;
-    for (const auto& key : study_.sweep.keys) settings.push_back({key, value});
+    const auto& keys = method.second.keys.empty() ? study_.sweep.keys : method.second.keys;
+    for (const auto& key : keys) settings.push_back({key, value});
     if (study_.across)
       for (const auto& key : study_.across->keys) settings.push_back({key, across});
     runs_.push_back({.id = id,

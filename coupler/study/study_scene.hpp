@@ -24,6 +24,7 @@ void describe(core::Fields& fields, Setting& setting);
 struct Method {
   std::optional<std::filesystem::path> base;  ///< absent: that of the study
   std::vector<Setting> set;
+  std::vector<std::string> keys;  ///< that the sweep's values go to; none: those of the sweep
 };
 void describe(core::Fields& fields, Method& method);
 

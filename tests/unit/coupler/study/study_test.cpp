@@ -223,6 +223,16 @@ TEST_CASE("a difference is relative to the second value, or plain where that is 
   CHECK(study::relative_difference({{0, 2}, {0, 2}}, {{0, 1, 2}, {0, 1, 2}}) == 0);
 }
 
+TEST_CASE("the values of the sweep go to a method's own keys where it has some") {
+  const Study study(replaced(study_text, "first: {", "first: {keys: [model.mesh.size], "));
+  for (const auto& run : study::plan(study::load_study(study.folder / "study.yaml").scene, "runs")) {
+    INFO(run.scene);
+    const bool own = run.method == "first";
+    CHECK((run.scene.find("size: ") != std::string::npos) == own);
+    CHECK((run.scene.find("step: ") != std::string::npos) == !own);
+  }
+}
+
 TEST_CASE("every study of the repository can be planned") {
   std::size_t planned = 0;
   for (const auto& entry : std::filesystem::directory_iterator(TALUS_SOURCE_DIR "/configs/studies")) {
