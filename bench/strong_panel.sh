@@ -29,12 +29,13 @@ run weak_1_us "time: {step: 1 us, $end}
 $explicit_contact}"
 run weak_4_us "time: {step: 4 us, $end}
 $explicit_contact}"
-strong="tolerance: {relative: 1e-3, force: 1 N, displacement: 1e-6 m, velocity: 1 mm/s}"
 run strong_80_us "time: {step: 80 us, $end}
 structure: {implicit: {}, step: 80 us}
 $explicit_contact, step: 4 us}
-coupling: {serial_explicit: ~, serial_implicit: {relax: free_motion, iqn_ils: {}, iterations: 30, shortest_window: 20 us, $strong}}"
-run strong_500_us "time: {step: 500 us, $end}
-structure: {implicit: {}, step: 500 us}
-$explicit_contact, step: 4 us}
-coupling: {serial_explicit: ~, serial_implicit: {relax: free_motion, iqn_ils: {}, iterations: 30, shortest_window: 62.5 us, $strong}}"
+coupling:
+  serial_explicit: ~
+  serial_implicit:
+    aitken: {}
+    relax: free_motion
+    iterations: 30
+    tolerance: {relative: 1e-3, force: 1 N, displacement: 1e-6 m, velocity: 1 mm/s}"

@@ -19,8 +19,9 @@ void describe(core::Fields& fields, Setting& setting) {
 void describe(core::Fields& fields, Method& method) {
   fields.optional("base", method.base, {.help = "the scene of this method; that of the study where absent"});
   fields.list("set", method.set, "what differs from the base scene");
-  fields.with_default("keys", method.keys,
-                      {.help = "paths of the keys that get the value of the sweep where this method has others"});
+  fields.with_default(
+      "keys", method.keys,
+      {.help = "paths of the keys that get the value of the sweep where this method has others"});
 }
 
 void describe(core::Fields& fields, Sweep& sweep) {

@@ -52,12 +52,12 @@ void Boundary::set(std::vector<double>& values, Index node, const Triple<double>
 }
 
 void Boundary::displace(const Addition& addition) noexcept {
-  for (std::size_t i = 0; i < addition.displacement.size() / 3; ++i) {
-    const double *d = &addition.displacement[3 * i], *w = &addition.velocity[3 * i];
-    Row &x = position_[i + addition.first_node], &v = velocity_[i + addition.first_node];
-    x = row(triple<double>(x) + Triple<double>{d[0], d[1], d[2]});
-    v = row(triple<double>(v) + Triple<double>{w[0], w[1], w[2]});
-  }
+  const auto add = [first = 3 * static_cast<std::size_t>(addition.first_node)](
+                       std::vector<double>& to, std::span<const double> values) {
+    for (std::size_t i = 0; i < values.size(); ++i) to[first + i] += values[i];
+  };
+  add(displacement_, addition.displacement);
+  add(velocity_, addition.velocity);
 }
 
 void Boundary::set_velocity(Index part, const Triple<double>& velocity) {

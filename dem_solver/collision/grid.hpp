@@ -24,23 +24,35 @@ class CellGrid {
   TALUS_INLINE Cell cell(const Row& p) const noexcept {
     return {clamped(p.x, 0), clamped(p.y, 1), clamped(p.z, 2)};
   }
-  /// Cells are numbered with the longest axis slowest, so that equal numbers along it are a slab.
+  /// Cells are numbered with the longest axis slowest.
   TALUS_INLINE Index number(const Cell& c) const noexcept {
     return (c[axis_[0]] * count_[axis_[1]] + c[axis_[1]]) * count_[axis_[2]] + c[axis_[2]];
   }
-  /// Another numbering, for sorting: neighbouring slabs, from `first` on, are a block, whose cells are
-  /// numbered with the second axis slowest. So neighbours stand near each other in memory, in whichever slab
-  /// of the block.
-  struct SlabBlock {
-    Index first = 0, slabs = 0;
-  };
-  Index number_in_block(const Cell& c, const SlabBlock& block) const noexcept {
-    const Index before = block.first * count_[axis_[1]];
-    return (before + c[axis_[1]] * block.slabs + c[axis_[0]] - block.first) * count_[axis_[2]] + c[axis_[2]];
+  /// Layers across the longest axis, thinner than cells so that they can be shared out evenly. Points nearer
+  /// than a cell are at most `layers_a_cell` layers apart.
+  static constexpr Index layers_a_cell = 8;
+  Index layer(const Row& p) const noexcept {
+    const double l = (component(p, axis_[0]) - low_[axis_[0]]) * inverse_cell_ * layers_a_cell;
+    return l <= 0 ? 0 : l >= layer_count() - 1 ? layer_count() - 1 : static_cast<Index>(l);
   }
-  Index cells_a_slab() const noexcept { return count_[axis_[1]] * count_[axis_[2]]; }
-  Index slab(const Cell& c) const noexcept { return c[axis_[0]]; }
-  Index slab_count() const noexcept { return count_[axis_[0]]; }
+  Index layer_count() const noexcept { return count_[axis_[0]] * layers_a_cell; }
+  /// Neighbouring layers, with a numbering of the cells they cut that is for sorting: the second axis is the
+  /// slowest, so that neighbours stand near each other in memory, in whichever layer of the block.
+  struct LayerBlock {
+    Index first_slab = 0, slabs = 0;  ///< cells along the longest axis
+    Index cells_before = 0;           ///< in the blocks before
+  };
+  LayerBlock block_of_layers(Index begin, Index end, Index cells_before) const noexcept {
+    const Index first = begin / layers_a_cell;
+    return {first, (end - 1) / layers_a_cell + 1 - first, cells_before};
+  }
+  Index number_in_block(const Cell& c, const LayerBlock& block) const noexcept {
+    const Index column = c[axis_[1]] * block.slabs + c[axis_[0]] - block.first_slab;
+    return block.cells_before + column * count_[axis_[2]] + c[axis_[2]];
+  }
+  Index cells_of(const LayerBlock& block) const noexcept {
+    return block.slabs * count_[axis_[1]] * count_[axis_[2]];
+  }
   Index cell_count() const noexcept { return count_[0] * count_[1] * count_[2]; }
   const Cell& counts() const noexcept { return count_; }
   const std::array<int, 3>& axes() const noexcept { return axis_; }

@@ -14,27 +14,26 @@ namespace {
 
 /// Enough blocks to share among threads; fewer have fewer edges, whose spheres two blocks read.
 constexpr Index most_blocks = 32;
-constexpr Index fewest_slabs_a_block = 2;  // so that every second block is out of reach
+constexpr Index fewest_layers_a_block =
+    2 * CellGrid::layers_a_cell;  // so that every second block is out of reach
 
-/// Cuts the slabs into blocks of about equally many spheres. Their number is a power of two, so that the even
-/// blocks, and the odd ones, can be shared evenly among 2, 4 or 8 threads.
-std::vector<CellGrid::SlabBlock> cut_into_blocks(std::span<const Index> slab_of, Index slabs) {
-  const Index blocks = std::min<Index>(
-      most_blocks,
-      static_cast<Index>(std::bit_floor(static_cast<unsigned>(std::max(1, slabs / fewest_slabs_a_block)))));
-  std::vector<std::int64_t> up_to(static_cast<std::size_t>(slabs) + 1);  // spheres before each slab
-  for (Index slab : slab_of) ++up_to[slab + 1];
-  std::partial_sum(up_to.begin(), up_to.end(), up_to.begin());
-  std::vector<CellGrid::SlabBlock> cut;
-  for (Index k = 0, first = 0; k < blocks; ++k) {
-    const Index left = blocks - 1 - k;
-    Index end = std::min(first + fewest_slabs_a_block, slabs);
-    while (end < slabs - left * fewest_slabs_a_block && up_to[end] * blocks < (k + 1) * up_to.back()) ++end;
-    if (left == 0) end = slabs;
-    cut.push_back({first, end - first});
-    first = end;
+/// Ends of blocks of neighbouring layers, of about equally many spheres. Their number is a power of two, so that
+/// the even blocks, and the odd ones, can be shared evenly among 2, 4 or 8 threads.
+std::vector<Index> cut_into_blocks(std::span<const std::int64_t> spheres_of_layer) {
+  const auto layers = static_cast<Index>(spheres_of_layer.size());
+  const auto most = static_cast<unsigned>(std::max(1, layers / fewest_layers_a_block));
+  const Index blocks = std::min(most_blocks, static_cast<Index>(std::bit_floor(most)));
+  const auto all = std::accumulate(spheres_of_layer.begin(), spheres_of_layer.end(), std::int64_t{0});
+  std::vector<Index> ends;
+  std::int64_t up_to = 0;  // spheres of the layers before `end`
+  for (Index k = 0, end = 0; k < blocks; ++k) {
+    const Index least = std::min(end + fewest_layers_a_block, layers);
+    const Index most_end = layers - (blocks - 1 - k) * fewest_layers_a_block;
+    while (end < least || (end < most_end && up_to * blocks < (k + 1) * all))
+      up_to += spheres_of_layer[end++];
+    ends.push_back(k + 1 < blocks ? end : layers);
   }
-  return cut;
+  return ends;
 }
 
 /// Spheres in the order of blocks and, within a block, in the order of their cells; equal cells keep the
@@ -42,25 +41,33 @@ std::vector<CellGrid::SlabBlock> cut_into_blocks(std::span<const Index> slab_of,
 struct SpatialOrder {
   std::vector<Index> order;        ///< order[new place] = old place
   std::vector<Index> block_first;  ///< in new places
-  std::vector<Index> slab;         ///< of each old place
+  std::vector<Index> layer;        ///< of each old place
 };
 
 SpatialOrder spatial_order(const Spheres& spheres, double cell_size) {
   const CellGrid grid(spheres.position, cell_size);
+  SpatialOrder sorted;
+  std::vector<std::int64_t> spheres_of_layer(static_cast<std::size_t>(grid.layer_count()));
+  for (Index i = 0; i < spheres.size(); ++i) {
+    sorted.layer.push_back(grid.layer(spheres.position[i]));
+    ++spheres_of_layer[sorted.layer.back()];
+  }
+  std::vector<CellGrid::LayerBlock> blocks, block_of;  // the latter of each layer
+  Index begin = 0, cells = 0;
+  for (const Index end : cut_into_blocks(spheres_of_layer)) {
+    blocks.push_back(grid.block_of_layers(begin, end, cells));
+    block_of.resize(static_cast<std::size_t>(end), blocks.back());
+    cells += grid.cells_of(blocks.back());
+    begin = end;
+  }
   std::vector<Index> all(spheres.position.size()), cell_of(spheres.position.size());
   std::iota(all.begin(), all.end(), 0);
-  SpatialOrder sorted;
-  for (Index i : all) sorted.slab.push_back(grid.slab(grid.cell(spheres.position[i])));
-  const std::vector<CellGrid::SlabBlock> blocks = cut_into_blocks(sorted.slab, grid.slab_count());
-  std::vector<Index> block_of(static_cast<std::size_t>(grid.slab_count()));
-  for (Index k = 0; k < static_cast<Index>(blocks.size()); ++k)
-    std::fill_n(block_of.begin() + blocks[k].first, blocks[k].slabs, k);
   for (Index i : all)
-    cell_of[i] = grid.number_in_block(grid.cell(spheres.position[i]), blocks[block_of[sorted.slab[i]]]);
+    cell_of[i] = grid.number_in_block(grid.cell(spheres.position[i]), block_of[sorted.layer[i]]);
   CellMembers members;
-  members.fill(all, cell_of, grid.cell_count());
-  for (const CellGrid::SlabBlock& block : blocks)
-    sorted.block_first.push_back(members.first[block.first * grid.cells_a_slab()]);
+  members.fill(all, cell_of, cells);
+  for (const CellGrid::LayerBlock& block : blocks)
+    sorted.block_first.push_back(members.first[block.cells_before]);
   sorted.block_first.push_back(members.first.back());
   sorted.order = std::move(members.points);
   return sorted;
@@ -77,7 +84,7 @@ bool same_rock(const Spheres& spheres, Index i, Index j) noexcept {
   return spheres.in_rock(i) && spheres.rock[i] == spheres.rock[j];
 }
 
-BlockPairs search_block(const Spheres& spheres, const SizeClasses& classes, std::span<const Index> slab,
+BlockPairs search_block(const Spheres& spheres, const SizeClasses& classes, std::span<const Index> layer,
                         double skin, Index begin, Index end) {
   BlockPairs found;
   for (Index i = begin; i < end; ++i) {
@@ -87,7 +94,7 @@ BlockPairs search_block(const Spheres& spheres, const SizeClasses& classes, std:
       const Row& q = spheres.position[j];
       const double dx = p.x - q.x, dy = p.y - q.y, dz = p.z - q.z, reach = p.w + q.w + skin;
       if (dx * dx + dy * dy + dz * dz >= reach * reach || same_rock(spheres, i, j)) return;
-      if (std::abs(slab[i] - slab[j]) <= 1)
+      if (std::abs(layer[i] - layer[j]) <= CellGrid::layers_a_cell)
         found.other.push_back(j);
       else
         found.wide.push_back({i, j});
@@ -145,11 +152,11 @@ PairList::Rebuilt PairList::rebuild(Spheres& spheres, double skin, int threads) 
   spheres.reorder(sorted.order);
   classes.build_cells(spheres);
   block_first_ = std::move(sorted.block_first);
-  std::vector<Index> slab(sorted.slab.size());
-  for (std::size_t i = 0; i < slab.size(); ++i) slab[i] = sorted.slab[sorted.order[i]];
+  std::vector<Index> layer(sorted.layer.size());
+  for (std::size_t i = 0; i < layer.size(); ++i) layer[i] = sorted.layer[sorted.order[i]];
   std::vector<BlockPairs> found(static_cast<std::size_t>(block_count()));
   core::parallel_tasks({block_count(), threads}, [&](std::int64_t k) {
-    found[k] = search_block(spheres, classes, slab, skin, block_first_[k], block_first_[k + 1]);
+    found[k] = search_block(spheres, classes, layer, skin, block_first_[k], block_first_[k + 1]);
   });
 
   first_.assign(1, 0);

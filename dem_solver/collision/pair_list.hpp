@@ -13,9 +13,9 @@ namespace talus::dem {
 /// All pairs of spheres nearer than a skin, found by a grid a size class, so that 1 : 100 in size costs no
 /// more than equal sizes.
 ///
-/// Every pair has a slot, where its contact law keeps its memory. The spheres are sorted into slabs, one cell
-/// thick, and neighbouring slabs into blocks of two or more; a pair belongs to one of its spheres, its owner,
-/// and reaches no further than the neighbouring slabs. Every second block therefore never writes to the same
+/// Every pair has a slot, where its contact law keeps its memory. The spheres are sorted into blocks of layers,
+/// two cells thick or more and of about equally many; a pair belongs to one of its spheres, its owner, and
+/// reaches no further than a cell. Every second block therefore never writes to the same
 /// sphere as the others, and two passes, over the even blocks and over the odd ones, may add forces in place,
 /// by any number of threads, in an order that does not depend on it. The few pairs that reach further (a
 /// boulder among sand) come last, one after the other.

@@ -247,6 +247,7 @@ TEST_CASE(
   const auto run = [&](auto make_unknown, Order order) {
     test::CoupledPair pair([&](auto& p) { serve_mass(p, system); },
                            [&](auto& p) { serve_dashpot(p, damping, 1000); }, {length}, order);
+    pair.exchange().particles().velocity[2] = system.velocity;
     Implicit scheme(make_unknown(pair.exchange()), NoAcceleration{}, tolerance(50), Predictor::linear);
     scheme.compute(pair.exchange(), {.index = 0, .unit = length});
     return std::pair{pair.velocity(), scheme.tally().most};

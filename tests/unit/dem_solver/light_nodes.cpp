@@ -46,11 +46,11 @@ TEST_CASE(
   const std::vector<double> given{0.1, 0, 0, 0, 0, 0}, speed{0, 3, 0, 0, 0, 0};
   boundary.move({.start_displacement = given, .start_velocity = speed}, 0);
   nodes.displace(boundary);
-  CHECK(boundary.position()[0].x == 0.1);
-  CHECK(boundary.position()[0].z == 0.5 * (0.5 * 8 / 2));
-  CHECK(boundary.velocity()[0].y == 3);
-  CHECK(boundary.velocity()[0].z == 0.5 * 8 / 2);
-  CHECK(boundary.position()[1].z == 0);
+  CHECK(boundary.position(0).x == 0.1);
+  CHECK(boundary.position(0).z == 0.5 * (0.5 * 8 / 2));
+  CHECK(boundary.velocity(0).y == 3);
+  CHECK(boundary.velocity(0).z == 0.5 * 8 / 2);
+  CHECK(boundary.position(1).z == 0);
   nodes.begin_window();
   CHECK(nodes.velocity()[2] == 0);
 }
