@@ -44,6 +44,7 @@ class ChannelParticipant final : public Participant {
   }
   std::span<double> table(std::size_t table) override { return output_arrays_.table(outputs(), table); }
   double& table_rows(std::size_t table) override { return output_arrays_.table_rows(outputs(), table); }
+  void tell_force_evaluations(std::int64_t since_start) override { channel_.force_evaluations = since_start; }
 
  private:
   enum class Stage { joined, surface_known, declared, idle, answering, finished };

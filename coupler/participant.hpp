@@ -151,6 +151,9 @@ class Participant {
   virtual std::span<double> field(std::size_t group, std::size_t field) = 0;
   virtual std::span<double> table(std::size_t table) = 0;  ///< room for all rows it may ever have
   virtual double& table_rows(std::size_t table) = 0;       ///< how many it has
+  /// How often all forces were evaluated since the start, those of windows that were taken back included: a
+  /// cost that does not depend on the machine, for the summary. Between next() and answer(), by who counts.
+  virtual void tell_force_evaluations([[maybe_unused]] std::int64_t since_start) {}
 };
 
 /// The whole coupled life of a program: joins, serves, and tells the coupler what `serve` throws, which then

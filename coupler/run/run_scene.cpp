@@ -173,6 +173,7 @@ RunStatus compute(PreparedRun& run, Assembled& parts, Course& course, nlohmann::
           return one_window;
         });
   }
+  add_work(summary, *run.session);
   run.session->finish();
   return status;
 }

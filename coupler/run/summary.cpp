@@ -69,6 +69,15 @@ void add_facts(json& summary, const PreparedRun& run) {
   if (run.interface) summary["interface"] = to_json(*run.interface);
 }
 
+void add_work(json& summary, Session& session) {
+  json& work = summary["work"] = json::object();
+  for (const Peer* peer : session.peers()) {
+    const std::string side = name_of(peer->role());
+    work[side + "_calls"] = peer->calls();
+    if (peer->force_evaluations() > 0) work[side + "_force_evaluations"] = peer->force_evaluations();
+  }
+}
+
 void add_iterations(json& summary, const IterationTally& tally, double window_length) {
   const auto windows = static_cast<double>(std::max<std::int64_t>(tally.windows, 1));
   summary["iterations"] = {

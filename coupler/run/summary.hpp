@@ -15,6 +15,10 @@ namespace talus::coupler {
 /// each other.
 void add_facts(nlohmann::json& summary, const PreparedRun& run);
 
+/// The cost that does not depend on the machine: calls of both solvers, and their evaluations of all forces
+/// where they tell. Of a restarted run, those since the restart.
+void add_work(nlohmann::json& summary, Session& session);
+
 /// Iterations a strong scheme took, windows it halved, and a warning where windows did not converge.
 /// @param window_length s; of a regular window
 void add_iterations(nlohmann::json& summary, const IterationTally& tally, double window_length);

@@ -41,6 +41,11 @@ class Peer {
   /// Done on this side's surface since time 0, J; the coupler's to change between an answer and the next
   /// command.
   double& work() const { return channel_.work; }
+  /// Windows it was asked to compute since the start, those taken back included, and how often it evaluated
+  /// its forces for them (0 where it does not tell).
+  std::int64_t calls() const { return calls_; }
+  void count_call() { ++calls_; }
+  std::int64_t force_evaluations() const { return channel_.force_evaluations; }
   const Declaration& declaration() const { return declaration_; }
   const OutputArrays& output_arrays() const { return output_arrays_; }
   void set_declaration(Declaration declaration);
@@ -54,6 +59,7 @@ class Peer {
   std::array<std::span<double>, transport::array_count> arrays_;
   Declaration declaration_;
   OutputArrays output_arrays_;
+  std::int64_t calls_ = 0;
 };
 
 const char* name_of(Role role);

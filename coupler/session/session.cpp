@@ -165,6 +165,7 @@ void Session::post(Peer& peer, const Command& command) {
   std::memcpy(record.path.data(), command.path.c_str(), command.path.size() + 1);
   window_ = command.window;
   action_ = command.action;
+  if (command.action == Action::advance) peer.count_call();
   transport::post(peer.channel().command_posted);
 }
 

@@ -105,6 +105,7 @@ struct alignas(array_alignment) Channel {
   Signal command_posted, answer_posted;
   double work = 0;  ///< J; done on this side's surface since time 0. Written by the participant while it
                     ///< answers, else by the coupler
+  std::int64_t force_evaluations = 0;  ///< since time 0, if the participant tells; written while it answers
   CommandRecord command;
   std::array<ArraySlot, array_count> arrays{};
   std::array<std::byte, 32768> failure{};  ///< CBOR of why the participant cannot go on

@@ -117,6 +117,8 @@ class Server {
       add_reactions(fields.force, 1.0 / static_cast<double>(steps));
     }
     if (light) tell_where_nodes_went(fields);
+    force_evaluations_ += steps;
+    participant_.tell_force_evaluations(force_evaluations_);
   }
 
   void tell_where_nodes_went(const coupler::ParticleFields& fields) const {
@@ -144,6 +146,7 @@ class Server {
   Index first_node_;
   LightNodes light_nodes_;
   std::optional<ParticleSolver> saved_;
+  std::int64_t force_evaluations_ = 0;  ///< since the start
 };
 
 }  // namespace

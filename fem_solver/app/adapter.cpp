@@ -130,6 +130,7 @@ void obey(const coupler::Command& command, Structure& structure, coupler::Partic
       integrator.interface().set(fields.force);
       integrator.advance(command.time, command.length);
       present.time = command.time + command.length;
+      participant.tell_force_evaluations(integrator.force_evaluations());
       break;
     case Action::save_state:
       return integrator.save();

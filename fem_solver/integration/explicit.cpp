@@ -41,6 +41,7 @@ void ExplicitSolver::advance(double time, double length) {
     state_.previous_step = step_length;
     return;
   }
+  force_evaluations_ += static_cast<std::int64_t>(steps);
   for (int k = 0; k < steps; ++k) step(time + k * step_length, step_length);
 }
 

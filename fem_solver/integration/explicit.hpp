@@ -76,6 +76,7 @@ class ExplicitSolver final : public Integrator {
   /// step, at time 0.
   EnergyBalance balance() override;
   double slide_gap(std::size_t slide) const override { return slides_[slide].largest_violation(); }
+  std::int64_t force_evaluations() const override { return force_evaluations_; }
   void save() override { saved_.take(state_, model_); }
   void archive(core::StateArchive& archive) override;
   const char* method() const override { return "fem_solver explicit"; }
@@ -150,6 +151,7 @@ class ExplicitSolver final : public Integrator {
   std::vector<double> free_velocity_;    ///< m/s; only where somebody asks for it
   std::vector<double> element_force_;    ///< N; of the elements at the present state, where prepared
   bool prepared_ = false;
+  std::int64_t force_evaluations_ = 0;
   core::OrderedSum<> sum_;
 };
 

@@ -48,6 +48,7 @@ class ImplicitSolver final : public Integrator {
   double slide_gap(std::size_t slide) const override {
     return newton_.slides().gap(slide, state_.displacement);
   }
+  std::int64_t force_evaluations() const override { return newton_.evaluations(); }
   void save() override { saved_.take(state_, model_); }
   void archive(core::StateArchive& archive) override;
   const char* method() const override { return "fem_solver implicit"; }

@@ -45,6 +45,9 @@ class Integrator {
   /// Forces of the supports on the structure (N), 3 for every node of every support in turn.
   virtual std::span<const double> reactions() const = 0;
   virtual EnergyBalance balance() = 0;
+  /// Of all elements, since the start: the cost that does not depend on the machine. What was taken back
+  /// counts.
+  virtual std::int64_t force_evaluations() const = 0;
   /// Largest distance of a slider of constrained slide number `slide` from its rope (m).
   virtual double slide_gap([[maybe_unused]] std::size_t slide) const { return 0; }
 

@@ -54,6 +54,7 @@ std::vector<double> Newton::accelerations(Push push, std::vector<double>& displa
 }
 
 void Newton::evaluate(const NewtonSystem& system, const std::vector<double>& displacement) {
+  ++evaluations_;
   system.residual(displacement, residual_);
   slides_.settle(displacement, residual_);
 }

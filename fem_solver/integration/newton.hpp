@@ -58,6 +58,7 @@ class Newton {
 
   const Equations& equations() const { return equations_; }
   const SlideElimination& slides() const { return slides_; }
+  std::int64_t evaluations() const { return evaluations_; }  ///< of the residual, since the start
   /// -(derivative of the residual) at the state solve() has left, lower half.
   SparseMatrix tangent(const NewtonSystem& system, std::span<const double> displacement);
 
@@ -72,6 +73,7 @@ class Newton {
   SlideElimination slides_;
   LinearSolver solver_;
   std::vector<double> residual_, trial_;
+  std::int64_t evaluations_ = 0;
 };
 
 }  // namespace talus::fem

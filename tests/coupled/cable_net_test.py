@@ -36,6 +36,12 @@ class RockOnCableNet(unittest.TestCase):
         self.assertLess(summary["peaks"]["net_centre.displacement_z_m"]["value"], 1.2 * PEAK)
         self.assertTrue(any("contact dashpot on boundary nodes" in warning for warning in summary["warnings"]))
 
+    def test_the_summary_counts_the_work_and_a_net_at_rest_costs_none(self):
+        first_touch, step = 0.0353, 50e-6  # s; cases.md
+        work = self.runs["cable_net"].summary["work"]
+        self.assertEqual([work[key] for key in ("structure_calls", "particles_calls", "particles_force_evaluations")], [4000] * 3)
+        self.assertAlmostEqual(work["structure_force_evaluations"], 4000 - first_touch / step, delta=3)  # 0.0353 is rounded to two steps
+
     def test_the_standard_files_are_there_and_open(self):
         run = self.runs["cable_net"]
         self.assertEqual(run.summary["status"], "finished")

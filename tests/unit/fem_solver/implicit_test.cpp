@@ -72,6 +72,9 @@ TEST_CASE("Newton converges quadratically in an implicit step") {
   const auto& residuals = solver.reports().back().residuals;
   WARN("relative residuals of an implicit step: " << tests::listed(residuals));
   CHECK(tests::converges_quadratically(residuals));
+  // One evaluation a residual, and more where the line search rejects a step.
+  const bool one_each = solver.force_evaluations() == static_cast<std::int64_t>(residuals.size());
+  CHECK(one_each == (solver.reports().back().cut == 0));
 }
 
 TEST_CASE("implicit and explicit integration agree on a net that falls into its prestress") {
