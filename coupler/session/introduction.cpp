@@ -65,6 +65,14 @@ Interface make_interface(const InterfacePlan& plan, PublishedSurface published) 
           .tie = std::move(tie)};
 }
 
+void refuse_heavy_boundary(const Peer& particles) {
+  if (particles.declaration().light_boundary) return;
+  throw core::ConfigError(fmt::format(
+      "coupling.serial_implicit.relax: 'free_motion' needs particles that move the boundary's light "
+      "nodes with the contact forces; {} does not",
+      particles.declaration().program));
+}
+
 }  // namespace
 
 InterfacePlan identical_surfaces() {
@@ -103,18 +111,6 @@ std::optional<Interface> introduce(Session& session, const std::optional<Interfa
   all.throw_if_any();
   return interface;
 }
-
-namespace {
-
-void refuse_heavy_boundary(const Peer& particles) {
-  if (particles.declaration().light_boundary) return;
-  throw core::ConfigError(fmt::format(
-      "coupling.serial_implicit.relax: 'free_motion' needs particles that move the boundary's light "
-      "nodes with the contact forces; {} does not",
-      particles.declaration().program));
-}
-
-}  // namespace
 
 bool needs_free_velocity(Session& session, double window_length) {
   const Peer *structure = session.find(Role::structure), *particles = session.find(Role::particles);

@@ -15,7 +15,7 @@ PEAK, PEAK_AT, BOULDER_END, STONE_END = -0.121689, 0.077415, 0.45795, -0.84823
 class RockOnCableNet(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.runs = {scene: Run(f"examples/{scene}") for scene in ("cable_net", "cable_net_converged", "cable_net_implicit")}
+        cls.runs = {scene: Run(f"examples/{scene}") for scene in ("cable_net", "cable_net_converged", "cable_net_implicit", "cable_net_strong")}
 
     def assert_is_the_converged_motion(self, scene: str, relative: float):
         run = self.runs[scene]
@@ -30,6 +30,10 @@ class RockOnCableNet(unittest.TestCase):
 
     def test_implicit_contact_gives_the_converged_motion_at_the_published_step(self):
         self.assert_is_the_converged_motion("cable_net_implicit", 0.01)
+
+    def test_strong_windows_four_times_the_published_step_give_the_converged_motion(self):
+        self.assert_is_the_converged_motion("cable_net_strong", 0.01)
+        self.assertEqual(self.runs["cable_net_strong"].summary["iterations"]["windows_not_converged"], 0)
 
     def test_the_published_step_overshoots_and_says_so(self):
         summary = self.runs["cable_net"].summary
