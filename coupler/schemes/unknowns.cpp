@@ -41,6 +41,17 @@ void predict_motion(Exchange& exchange, const Window& window, Predictor predicto
   }
 }
 
+/// Of the pair (u, L v) and of the force.
+struct Iterates {
+  std::span<const double> motion, made, force, made_force;
+};
+std::array<FieldChange, 3> changes_of(const Iterates& i, const Window& window) {
+  const std::size_t half = i.motion.size() / 2;
+  return {FieldChange{FieldName::displacement, i.motion.first(half), i.made.first(half)},
+          FieldChange{FieldName::velocity, i.motion.last(half), i.made.last(half), 1 / window.length()},
+          FieldChange{FieldName::force, i.force, i.made_force}};
+}
+
 }  // namespace
 
 MotionUnknown::MotionUnknown(Exchange& exchange)
@@ -64,11 +75,7 @@ void MotionUnknown::evaluate(const Window& window, int iteration) {
 }
 
 std::array<FieldChange, 3> MotionUnknown::changes(const Window& window) const {
-  const std::span<const double> x(x_), made(made_);
-  const std::size_t half = x.size() / 2;
-  return {FieldChange{FieldName::displacement, x.first(half), made.first(half)},
-          FieldChange{FieldName::velocity, x.last(half), made.last(half), 1 / window.length()},
-          FieldChange{FieldName::force, force_before_, exchange_.particles().force}};
+  return changes_of({x_, made_, force_before_, exchange_.particles().force}, window);
 }
 
 FreeMotionUnknown::FreeMotionUnknown(Exchange& exchange)
@@ -102,11 +109,8 @@ void FreeMotionUnknown::evaluate(const Window& window, int iteration) {
 }
 
 std::array<FieldChange, 3> FreeMotionUnknown::changes(const Window& window) const {
-  const std::span<const double> before(boundary_motion_), after(structure_motion_);
-  const std::size_t half = before.size() / 2;
-  return {FieldChange{FieldName::displacement, before.first(half), after.first(half)},
-          FieldChange{FieldName::velocity, before.last(half), after.last(half), 1 / window.length()},
-          FieldChange{FieldName::force, force_before_, exchange_.particles().force}};
+  return changes_of({boundary_motion_, structure_motion_, force_before_, exchange_.particles().force},
+                    window);
 }
 
 ForceUnknown::ForceUnknown(Exchange& exchange)

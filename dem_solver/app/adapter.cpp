@@ -54,11 +54,7 @@ class Server {
  public:
   Server(const RunScene& scene, ParticleRun& run, coupler::Participant& participant,
          const CoupledBoundary& boundary)
-      : own_step_(own_step(scene)),
-        run_(run),
-        participant_(participant),
-        first_node_(boundary.first_node),
-        light_nodes_(boundary.node_masses, boundary.first_node) {}
+      : own_step_(own_step(scene)), run_(run), participant_(participant), boundary_(boundary) {}
 
   void serve() {
     for (Command command = participant_.next(); command.action != Action::finish;
@@ -103,37 +99,38 @@ class Server {
     run_.solver.set_clock({.time = command.time, .step = command.length / static_cast<double>(steps)});
     std::ranges::fill(fields.force, 0.0);
     const Boundary::Motion motion{fields.start_displacement, fields.start_velocity, fields.end_displacement,
-                                  fields.end_velocity, first_node_};
-    const bool light = !fields.moved_displacement.empty();
-    if (light) light_nodes_.begin_window();
+                                  fields.end_velocity, boundary_.first_node};
+    const bool asked = !fields.moved_displacement.empty();
+    if (asked && !light_nodes_) light_nodes_.emplace(boundary_.node_masses, boundary_.first_node);
+    if (light_nodes_) light_nodes_->begin_window();
     for (std::int64_t k = 0; k < steps; ++k) {
       if (!run_.solver.boundary().empty())
         run_.solver.boundary().move(motion, static_cast<double>(k) / static_cast<double>(steps));
-      if (light) light_nodes_.displace(run_.solver.boundary());
+      if (light_nodes_) light_nodes_->displace(run_.solver.boundary());
       if (!fields.free_velocity.empty())
-        run_.solver.boundary().set_free_velocity(fields.free_velocity, first_node_);
+        run_.solver.boundary().set_free_velocity(fields.free_velocity, boundary_.first_node);
       run_.solver.step();
-      if (light) light_nodes_.answer(run_.solver.boundary(), run_.solver.step_length());
+      if (light_nodes_) light_nodes_->answer(run_.solver.boundary(), run_.solver.step_length());
       add_reactions(fields.force, 1.0 / static_cast<double>(steps));
     }
-    if (light) tell_where_nodes_went(fields);
+    if (light_nodes_) tell_where_nodes_went(fields);
     force_evaluations_ += steps;
     participant_.tell_force_evaluations(force_evaluations_);
   }
 
   void tell_where_nodes_went(const coupler::ParticleFields& fields) const {
     const auto add = std::plus<>{};
-    std::ranges::transform(fields.end_displacement, light_nodes_.displacement(),
+    std::ranges::transform(fields.end_displacement, light_nodes_->displacement(),
                            fields.moved_displacement.begin(), add);
-    std::ranges::transform(fields.end_velocity, light_nodes_.velocity(), fields.moved_velocity.begin(), add);
+    std::ranges::transform(fields.end_velocity, light_nodes_->velocity(), fields.moved_velocity.begin(), add);
   }
 
   void add_reactions(std::span<double> force, double share) const {
     const Boundary& boundary = run_.solver.boundary();
     for (const Index node : boundary.loaded_nodes()) {
-      if (node < first_node_) continue;
+      if (node < boundary_.first_node) continue;
       const Row& r = boundary.reaction()[node];
-      double* to = force.data() + 3 * static_cast<std::size_t>(node - first_node_);
+      double* to = force.data() + 3 * static_cast<std::size_t>(node - boundary_.first_node);
       to[0] += share * r.x;
       to[1] += share * r.y;
       to[2] += share * r.z;
@@ -143,8 +140,8 @@ class Server {
   std::optional<double> own_step_;
   ParticleRun& run_;
   coupler::Participant& participant_;
-  Index first_node_;
-  LightNodes light_nodes_;
+  const CoupledBoundary& boundary_;
+  std::optional<LightNodes> light_nodes_;  ///< where the scheme asks for them
   std::optional<ParticleSolver> saved_;
   std::int64_t force_evaluations_ = 0;  ///< since the start
 };

@@ -66,7 +66,7 @@ void run_in_processes(const std::filesystem::path& scene, const std::filesystem:
 
 TEST_CASE(
     "a rock on a cable net gives the same bits in three processes and in one, with any number of threads") {
-  const test::TemporaryFolder folder;
+  const test::Folder folder("coupled_run");
   run_in_process(cable_net, folder.path() / "one");
   run_in_processes(cable_net, folder.path() / "three", "1");
   run_in_processes(cable_net, folder.path() / "threads", "2");

@@ -147,7 +147,7 @@ TEST_CASE("participants in C, C++ and Python go on from a checkpoint with the sa
       GENERATE("examples/participants/springs.py", TALUS_BINARY_DIR "/bin/springs_cpp",
                TALUS_BINARY_DIR "/bin/springs_c");
   INFO(program);
-  const test::TemporaryFolder folder;
+  const test::Folder folder("foreign");
   const std::string file = folder.path() / "springs.part";
   constexpr int split = 40, end = 100;
   std::vector<double> expected;
@@ -179,7 +179,7 @@ TEST_CASE("participants in C, C++ and Python go on from a checkpoint with the sa
 TEST_CASE("a checkpoint of another state is refused by C and C++ before it is taken") {
   const std::string program =
       GENERATE(TALUS_BINARY_DIR "/bin/springs_cpp", TALUS_BINARY_DIR "/bin/springs_c");
-  const test::TemporaryFolder folder;
+  const test::Folder folder("foreign");
   const std::string file = folder.path() / "other.part";
   std::ofstream(file) << "too short";
   ForeignRun run(program, {"scene.yaml"});

@@ -63,7 +63,7 @@ class Example {
 
  private:
   static constexpr std::chrono::seconds limit{100};
-  test::TemporaryFolder folder_;
+  test::Folder folder_{"restart"};
   std::filesystem::path scene_ = folder_.path() / "scene.yaml";
 };
 

@@ -126,7 +126,7 @@ TEST_CASE("Ctrl-C before the solvers have joined ends the run") {
 
 TEST_CASE("a side that is started by hand takes part like one that talus starts") {
   FaultyRun run({.by_hand = "structure"});
-  const test::TemporaryFolder folder;
+  const test::Folder folder("faults");
   test::Program structure(run.command_by_hand(), folder.path() / "output.txt");
   run.wait_for_rows();
   run.program().signal(SIGINT);
@@ -143,7 +143,7 @@ TEST_CASE("a side that nobody starts by hand is missed after the join timeout, a
   }
   SECTION("killed") {
     FaultyRun run({.by_hand = "particles"});
-    const test::TemporaryFolder folder;
+    const test::Folder folder("faults");
     test::Program particles(run.command_by_hand(), folder.path() / "output.txt");
     run.wait_for_rows();
     particles.signal(SIGKILL);

@@ -118,7 +118,7 @@ class FaultyRun {
   }
 
  private:
-  TemporaryFolder folder_;
+  Folder folder_{"faults"};
   std::optional<Program> program_;
   std::vector<ChildProcess> children_;
 };

@@ -13,7 +13,8 @@ namespace talus::test {
 class Folder {
  public:
   explicit Folder(const std::string& name)
-      : path_(std::filesystem::temp_directory_path() / ("talus_" + name + "_" + std::to_string(::getpid()))) {
+      : path_(std::filesystem::temp_directory_path() /
+              ("talus_" + name + "_" + std::to_string(::getpid()) + "_" + std::to_string(count_++))) {
     std::filesystem::remove_all(path_);
     std::filesystem::create_directories(path_);
   }
@@ -33,6 +34,7 @@ class Folder {
   std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
 
  private:
+  static inline int count_ = 0;
   std::filesystem::path path_;
 };
 

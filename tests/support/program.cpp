@@ -5,19 +5,11 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <cstdlib>
 #include <fstream>
-#include <sstream>
 #include <stdexcept>
 #include <thread>
 
 namespace talus::test {
-
-std::string text_of(const std::filesystem::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file).rdbuf();
-  return text.str();
-}
 
 Program::Program(const std::vector<std::string>& command, const std::filesystem::path& output)
     : output_(output) {
@@ -69,17 +61,6 @@ std::vector<ChildProcess> children_of(int pid) {
 bool exists(int pid) {
   // A zombie is gone for this purpose only if its parent has reaped it; the coupler has to.
   return std::filesystem::exists("/proc/" + std::to_string(pid));
-}
-
-TemporaryFolder::TemporaryFolder() {
-  std::string pattern = (std::filesystem::temp_directory_path() / "talus-test-XXXXXX").string();
-  if (mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("no temporary folder");
-  path_ = pattern;
-}
-
-TemporaryFolder::~TemporaryFolder() {
-  std::error_code error;
-  std::filesystem::remove_all(path_, error);
 }
 
 }  // namespace talus::test

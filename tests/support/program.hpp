@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/folder.hpp"
+
 /// Programs started by a test, as a user would start them.
 namespace talus::test {
 
@@ -38,18 +40,5 @@ struct ChildProcess {
 };
 std::vector<ChildProcess> children_of(int pid);
 bool exists(int pid);
-
-std::string text_of(const std::filesystem::path& file);
-
-/// A folder that is empty at the start and gone at the end.
-class TemporaryFolder {
- public:
-  TemporaryFolder();
-  ~TemporaryFolder();
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 }  // namespace talus::test

@@ -126,7 +126,7 @@ class Course {
 /// The end of the run in one piece, at random windows of a fixed seed.
 template <class MakeScheme>
 void check_restarts(MakeScheme make) {
-  const test::TemporaryFolder folder;
+  const test::Folder folder("split_run");
   Course course(make, folder.path());
   const std::vector<double> whole = course.whole();
   std::mt19937 random(7);
@@ -175,7 +175,7 @@ TEST_CASE("a run split at a random window by checkpoint and restart has the bits
 }
 
 TEST_CASE("a checkpoint of windows of another length, or of something else, is refused") {
-  const test::TemporaryFolder folder;
+  const test::Folder folder("split_run");
   Course course([](Exchange&) { return SerialExplicit{}; }, folder.path());
   course.until(5);
   const auto file = folder.path() / "checkpoint.h5";
