@@ -9,6 +9,7 @@
 #include "bench/settling/bed.hpp"
 #include "bench/settling/machine.hpp"
 #include "core/program/command_line.hpp"
+#include "core/program/stage_clock.hpp"
 
 /// Times the settling of a bed of spheres and prints one JSON object.
 namespace {
@@ -19,7 +20,7 @@ struct Options {
   std::int64_t count = 10'000, steps = 5'000, settle = 0;
   int threads = 1;
   std::string write_data;
-  bool machine = false;
+  bool machine = false, stages = false;
 };
 
 double mean_height(const dem::Spheres& spheres) {
@@ -68,6 +69,14 @@ core::ExitCode print_machine(int threads) {
   return core::ExitCode::success;
 }
 
+void print_stages(std::span<const double> seconds, double particle_steps) {
+  fmt::print("{{\"ns_of_a_particle_step\":{{");
+  constexpr const char* names[] = {"search", "between_spheres", "with_planes", "with_boundary", "motion"};
+  for (std::size_t k = 0; k < seconds.size(); ++k)
+    fmt::print("{}\"{}\":{:.2f}", k > 0 ? "," : "", names[k], 1e9 * seconds[k] / particle_steps);
+  fmt::print("}}}}\n");
+}
+
 core::ExitCode run(const Options& options) {
   if (options.machine) return print_machine(options.threads);
   const double allocated_before = allocated(), memory_before = process_memory("VmRSS");
@@ -80,18 +89,21 @@ core::ExitCode run(const Options& options) {
   dem::ParticleSolver solver(bench::model_of(bed, options.threads));
   bed = {};  // so that memory is that of the solver
   for (std::int64_t n = 0; n < options.settle; ++n) solver.step();
+  core::StageClock clock("particles", {"search", "spheres", "planes", "boundary", "motion"});
+  if (options.stages) solver.measure_stages(clock);
   const std::int64_t searches_before = solver.searches();
   const auto start = std::chrono::steady_clock::now();
   for (std::int64_t n = 0; n < options.steps; ++n) solver.step();
   const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  const double rate = static_cast<double>(options.count) * static_cast<double>(options.steps) / wall;
+  const double particle_steps = static_cast<double>(options.count) * static_cast<double>(options.steps);
+  if (options.stages) print_stages(clock.seconds(), particle_steps);
   fmt::print(
       "{{\"peer\":\"talus\",\"n\":{},\"steps\":{},\"settle\":{},\"threads\":{},\"wall_s\":{:.3f},\"particle_"
       "steps_per_s\":{:.0f},"
       "\"mean_z_m\":{:.5f},\"kinetic_J\":{:.5g},\"mean_contacts\":{:.3f},\"searches\":{},"
       "\"bytes_per_sphere\":{:.0f},\"process_bytes_per_sphere\":{:.0f},\"peak_process_bytes_per_sphere\":{:."
       "0f}}}\n",
-      options.count, options.steps, options.settle, options.threads, wall, rate,
+      options.count, options.steps, options.settle, options.threads, wall, particle_steps / wall,
       mean_height(solver.spheres()), kinetic_energy(solver.spheres()), contacts_a_sphere(solver),
       solver.searches() - searches_before,
       (allocated() - allocated_before) / static_cast<double>(options.count),
@@ -111,6 +123,8 @@ int main(int argc, char** argv) {
   app.add_option("--threads", options.threads, "threads")->check(CLI::PositiveNumber);
   app.add_option("--write-data", options.write_data,
                  "write the bed as a LIGGGHTS data file and print the box's side instead");
+  app.add_flag("--stages", options.stages,
+               "print the nanoseconds of a particle-step in each stage, too: search, spheres, planes, boundary, motion");
   app.add_flag("--machine", options.machine,
                "print what so many threads gain on this machine at best instead");
   return core::run_main(app, argc, argv, [&] { return run(options); });
