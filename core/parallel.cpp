@@ -1,5 +1,7 @@
 #include "core/parallel.hpp"
 
+#include <omp.h>
+
 #include <string>
 
 #include "core/errors.hpp"
@@ -24,6 +26,12 @@ void run_tasks(const Tasks& tasks, const void* context, void (*work)(const void*
   }
 #pragma omp parallel for schedule(dynamic) num_threads(tasks.threads)
   for (std::int64_t task = 0; task < tasks.count; ++task) work(context, task);
+}
+
+void run_team(int threads, const void* context, void (*work)(const void*, TeamMember)) {
+  if (threads == 1) return work(context, {});
+#pragma omp parallel num_threads(threads)
+  work(context, {.rank = omp_get_thread_num(), .size = omp_get_num_threads()});
 }
 
 }  // namespace talus::core

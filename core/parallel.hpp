@@ -83,6 +83,21 @@ void parallel_runs(const Tasks& items, const Body& body) {
                  [&](std::int64_t run) { body(block_at(run, items.count, length)); });
 }
 
+/// One of the threads that work on something at the same time, and may therefore wait for each other.
+struct TeamMember {
+  int rank = 0, size = 1;
+};
+
+/// Calls work(context, member) on at most so many threads at once. @pre work is noexcept in effect
+void run_team(int threads, const void* context, void (*work)(const void*, TeamMember));
+
+/// Calls body(member) on at most so many threads at once.
+template <class Body>
+void parallel_team(int threads, const Body& body) {
+  run_team(threads, &body,
+           [](const void* of, TeamMember member) { (*static_cast<const Body*>(of))(member); });
+}
+
 /// The sum of term(item), the same bits for any number of threads. Keeps its memory between sums; reserve()
 /// before a loop that must not allocate.
 template <class Value = double>

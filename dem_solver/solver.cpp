@@ -5,8 +5,8 @@
 
 #include "core/errors.hpp"
 #include "core/parallel.hpp"
+#include "dem_solver/collision/block_sweep.hpp"
 #include "dem_solver/collision/size_classes.hpp"
-#include "dem_solver/integration/leapfrog.hpp"
 
 namespace talus::dem {
 
@@ -61,12 +61,14 @@ void ParticleSolver::step() {
   boundary_.drift(time());
   find_neighbours();
   core::lap(stage_clock_, search);
-  clear_loads();
-  evaluate_contacts();
-  core::lap(stage_clock_, with_boundary);
-  move_spheres();
-  previous_step_ = step_;
+  if (loads_end_with_blocks())
+    advance_block_by_block();
+  else
+    advance_stage_by_stage();
+  if (!rocks_.empty()) move_rocks();
   core::lap(stage_clock_, motion);
+  watch_motion();
+  previous_step_ = step_;
   ++steps_done_;
   if (!gates_.empty()) gates_.watch_near({spheres_, rocks_, time()});
 }
@@ -80,9 +82,12 @@ void ParticleSolver::set_clock(const Clock& clock) noexcept {
 void ParticleSolver::find_neighbours() {
   if (spheres_.size() == 0 || (listed_ && !lists_are_used_up())) return;
   if (listed_) skin_ = next_skin();
-  const PairList::Rebuilt rebuilt = pair_list_.rebuild(spheres_, skin_, threads_);
+  std::vector<Index> contacts(spheres_.position.size());
+  pair_list_.count_contacts(contacts);
+  plane_list_.count_contacts(contacts);
+  const PairList::Rebuilt rebuilt = pair_list_.rebuild(spheres_, {skin_, threads_, contacts});
   const std::vector<SlotMove> plane_moves =
-      plane_list_.rebuild(planes_, spheres_, rebuilt.new_place, wall_skin());
+      plane_list_.rebuild(planes_, spheres_, pair_list_.block_first(), rebuilt.new_place, wall_skin());
   std::vector<SlotMove> boundary_moves;
   if (!boundary_.empty())
     boundary_moves = boundary_list_.rebuild(boundary_, spheres_, rebuilt.new_place, wall_skin());
@@ -94,6 +99,7 @@ void ParticleSolver::find_neighbours() {
       contacts_);
   place_ = spheres_.places();
   listed_position_ = spheres_.position;
+  block_motion_.assign(static_cast<std::size_t>(pair_list_.block_count()), {});
   moved_ = {};
   listed_ = true;
   listed_at_ = steps_done_;
@@ -132,6 +138,7 @@ void ParticleSolver::fit_to_state() {
              boundary = in_place(boundary_list_.slots());
   const ContactStage stage = contact_stage();
   if (listed_) std::visit([&](auto& model) { model.rebuild(stage, {pairs, planes, boundary}); }, contacts_);
+  block_motion_.resize(static_cast<std::size_t>(pair_list_.block_count()));
 }
 
 ParticleSolver::Motion ParticleSolver::measured_motion() const noexcept {
@@ -153,12 +160,45 @@ ParticleSolver::Motion ParticleSolver::measured_motion() const noexcept {
   return {.alone = std::sqrt(alone), .towards_another = std::sqrt(most) + std::sqrt(second)};
 }
 
-void ParticleSolver::clear_loads() noexcept {
-  const bool turn = spheres_.rotates();
-  core::parallel_runs({spheres_.size(), threads_}, [&](core::Block run) {
-    std::fill(spheres_.force.begin() + run.begin, spheres_.force.begin() + run.end, Row{});
-    if (turn) std::fill(spheres_.torque.begin() + run.begin, spheres_.torque.begin() + run.end, Row{});
-  });
+bool ParticleSolver::loads_end_with_blocks() const noexcept {
+  return boundary_.empty() && pair_list_.wide().empty() && stage_clock_ == nullptr;
+}
+
+void ParticleSolver::advance_block_by_block() noexcept {
+  const ContactStage stage = contact_stage();
+  std::visit(
+      [&](auto& contacts) {
+        sweep_blocks(
+            {pair_list_.block_count(), threads_},
+            [&](Index block) { spheres_.clear_loads(pair_list_.places(block)); },
+            [&](Index block) { contacts.between_spheres(stage, block); },
+            [&](Index block) {
+              if (!planes_.empty()) contacts.with_planes(stage, block);
+              move_block(block);
+            });
+      },
+      contacts_);
+}
+
+void ParticleSolver::advance_stage_by_stage() noexcept {
+  const ContactStage stage = contact_stage();
+  const core::Tasks blocks{pair_list_.block_count(), threads_};
+  std::visit(
+      [&](auto& contacts) {
+        sweep_blocks(
+            blocks, [&](Index block) { spheres_.clear_loads(pair_list_.places(block)); },
+            [&](Index block) { contacts.between_spheres(stage, block); }, [](Index) {});
+        if (!pair_list_.wide().empty()) contacts.between_distant_spheres(stage);
+        core::lap(stage_clock_, between_spheres);
+        if (!planes_.empty())
+          core::parallel_tasks(
+              blocks, [&](std::int64_t block) { contacts.with_planes(stage, static_cast<Index>(block)); });
+        core::lap(stage_clock_, with_planes);
+      },
+      contacts_);
+  if (!boundary_.empty()) meet_boundary(stage);
+  core::lap(stage_clock_, with_boundary);
+  core::parallel_tasks(blocks, [&](std::int64_t block) { move_block(static_cast<Index>(block)); });
 }
 
 ContactStage ParticleSolver::contact_stage() noexcept {
@@ -173,32 +213,30 @@ ContactStage ParticleSolver::contact_stage() noexcept {
           .table = pairs_,
           .implicit_contact = implicit_contact_ ? &*implicit_contact_ : nullptr,
           .step = last_step(),
-          .threads = threads_,
-          .clock = stage_clock_};
+          .threads = threads_};
 }
 
-void ParticleSolver::evaluate_contacts() noexcept {
-  const ContactStage stage = contact_stage();
-  std::visit(
-      [&](auto& model) {
-        const int sweeps = model.evaluate(stage);
-        work_ += model.last_work();
-        if (!implicit_contact_) return;
-        sweeps_ += sweeps;
-        if (sweeps > implicit_contact_->control.most_sweeps) ++unconverged_steps_;
-      },
-      contacts_);
+void ParticleSolver::meet_boundary(const ContactStage& stage) noexcept {
+  const int sweeps = std::visit([&](auto& contacts) { return contacts.with_boundary(stage); }, contacts_);
+  if (!implicit_contact_) return;
+  sweeps_ += sweeps;
+  if (sweeps > implicit_contact_->control.most_sweeps) ++unconverged_steps_;
 }
 
-void ParticleSolver::move_spheres() {
-  const LeapfrogStep how{.gravity = gravity_, .step = step_, .kick = kick_, .threads = threads_};
-  MotionSummary motion = kick_and_drift(spheres_, how);
-  if (!rocks_.empty()) {
-    rocks_.move(spheres_, place_, how);
-    const double speed = rocks_.place_members(spheres_, place_);
-    motion.largest_speed = std::max(motion.largest_speed, speed);
-    motion.finite = motion.finite && std::isfinite(speed);
-  }
+void ParticleSolver::move_block(Index block) noexcept {
+  block_motion_[block] = kick_and_drift(spheres_, pair_list_.places(block), this_leap());
+}
+
+void ParticleSolver::move_rocks() noexcept {
+  rocks_.move(spheres_, place_, this_leap());
+  const double speed = rocks_.place_members(spheres_, place_);
+  block_motion_.front() += {.largest_speed = speed, .finite = std::isfinite(speed)};
+}
+
+void ParticleSolver::watch_motion() {
+  work_ += std::visit([](const auto& contacts) { return contacts.last_work(); }, contacts_);
+  MotionSummary motion;
+  for (const MotionSummary& of_block : block_motion_) motion += of_block;
   if (!motion.finite) report_not_finite();
   moved_.alone += motion.largest_speed * step_;
   moved_.towards_another += 2 * motion.largest_speed * step_;

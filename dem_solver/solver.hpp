@@ -5,10 +5,12 @@
 #include <span>
 #include <vector>
 
+#include "core/program/stage_clock.hpp"
 #include "dem_solver/boundary/boundary.hpp"
 #include "dem_solver/boundary/planes.hpp"
 #include "dem_solver/collision/pair_list.hpp"
 #include "dem_solver/contact/materials.hpp"
+#include "dem_solver/integration/leapfrog.hpp"
 #include "dem_solver/output/gates.hpp"
 #include "dem_solver/rocks/rocks.hpp"
 #include "dem_solver/scene/contact_models.hpp"
@@ -32,6 +34,9 @@ struct ParticleModel {
   int threads = 1;
   std::vector<Gate> gates;
 };
+
+/// Stages of a step whose time is told apart where the scene asks for it.
+enum StepStage : std::size_t { search, between_spheres, with_planes, with_boundary, motion };
 
 /// Energies at the time level of the forces, t_{n-1} after n steps: the one at which leapfrog energies are
 /// defined (J).
@@ -118,14 +123,22 @@ class ParticleSolver {
   double next_skin() const noexcept;
   /// m; of the lists of planes and boundary, towards which all spheres may move together.
   double wall_skin() const noexcept { return 2 * skin_; }
-  void clear_loads() noexcept;
-  void evaluate_contacts() noexcept;
-  void move_spheres();
+  /// Whether a sphere's loads are known as soon as its block and the two beside it have interacted. (Stages
+  /// whose time is to be told apart have to follow each other.)
+  bool loads_end_with_blocks() const noexcept;
+  // Two ways to the same bits: all stages of a block while the caches hold it, or one stage after the other.
+  void advance_block_by_block() noexcept;
+  void advance_stage_by_stage() noexcept;
+  void meet_boundary(const ContactStage& stage) noexcept;
+  void move_block(Index block) noexcept;
+  void move_rocks() noexcept;
+  void watch_motion();
   [[noreturn]] void report_not_finite() const;
   ContactStage contact_stage() noexcept;
   double gravity_work_level() const noexcept;
   /// s; the velocity of the first step belongs to the middle of one as long before it
   double last_step() const noexcept { return steps_done_ > 0 ? previous_step_ : step_; }
+  LeapfrogStep this_leap() const noexcept { return {gravity_, step_, kick_}; }
   LeapfrogStep last_leap() const noexcept;
   void add_spheres_to(ParticleLedger& ledger) const noexcept;
 
@@ -151,6 +164,7 @@ class ParticleSolver {
   std::vector<Index> place_;
   std::vector<Row> listed_position_;  ///< of the spheres when the lists were built
   Motion moved_;
+  std::vector<MotionSummary> block_motion_{1};  ///< in this step
   bool listed_ = false;
   std::int64_t listed_at_ = 0;  ///< step
   std::int64_t steps_done_ = 0;

@@ -124,7 +124,8 @@ int main(int argc, char** argv) {
   app.add_option("--write-data", options.write_data,
                  "write the bed as a LIGGGHTS data file and print the box's side instead");
   app.add_flag("--stages", options.stages,
-               "print the nanoseconds of a particle-step in each stage, too: search, spheres, planes, boundary, motion");
+               "print the nanoseconds of a particle-step in each stage, too: search, spheres, planes, "
+               "boundary, motion");
   app.add_flag("--machine", options.machine,
                "print what so many threads gain on this machine at best instead");
   return core::run_main(app, argc, argv, [&] { return run(options); });

@@ -7,9 +7,6 @@ namespace talus::dem {
 
 namespace {
 
-/// Entries worth handing to a thread.
-constexpr Index chunk_length = 256;
-
 /// A contact that touched at the last evaluation, its sphere in the new place.
 struct OldPlaneContact {
   Index sphere = 0, plane = 0, slot = 0;
@@ -29,14 +26,16 @@ std::vector<OldPlaneContact> old_plane_contacts(std::span<const PlaneList::Entry
 }  // namespace
 
 std::vector<SlotMove> PlaneList::rebuild(std::span<const Plane> planes, const Spheres& spheres,
-                                         std::span<const Index> new_place, double skin) {
+                                         std::span<const Index> block_first, std::span<const Index> new_place,
+                                         double skin) {
   const std::vector<OldPlaneContact> old = old_plane_contacts(entries_, touched_, new_place);
   auto next = old.begin();
   std::vector<SlotMove> moves;
   entries_.clear();
   touched_.clear();
-  chunk_first_.assign(1, 0);
+  block_first_.clear();
   for (Index i = 0; i < spheres.size(); ++i) {
+    while (block_first[block_first_.size()] == i) block_first_.push_back(slots());
     const Row& p = spheres.position[i];
     for (Index k = 0; k < static_cast<Index>(planes.size()); ++k) {
       const bool touched = next != old.end() && next->sphere == i && next->plane == k;
@@ -45,9 +44,8 @@ std::vector<SlotMove> PlaneList::rebuild(std::span<const Plane> planes, const Sp
       entries_.push_back({i, k});
       touched_.push_back(touched);
     }
-    if (slots() - chunk_first_.back() >= chunk_length) chunk_first_.push_back(slots());
   }
-  if (slots() > chunk_first_.back()) chunk_first_.push_back(slots());
+  block_first_.resize(block_first.size(), slots());
   return moves;
 }
 

@@ -26,29 +26,36 @@ class PlaneList {
     Index sphere = 0, plane = 0;
   };
 
+  /// @param block_first spheres of block k: block_first[k] .. block_first[k + 1]
   /// @param new_place where the spheres of the previous list stand now.
   /// @return where the memory of each touching contact goes.
   std::vector<SlotMove> rebuild(std::span<const Plane> planes, const Spheres& spheres,
-                                std::span<const Index> new_place, double skin);
+                                std::span<const Index> block_first, std::span<const Index> new_place,
+                                double skin);
+
+  /// Adds to each sphere the planes it touched at the last evaluation.
+  void count_contacts(std::span<Index> contacts) const noexcept {
+    for (std::size_t slot = 0; slot < entries_.size(); ++slot)
+      contacts[entries_[slot].sphere] += touched_[slot];
+  }
 
   std::span<const Entry> entries() const noexcept { return entries_; }
-  /// Entries of chunk c: chunk_first()[c] .. chunk_first()[c + 1]. A sphere's entries are in one chunk;
-  /// chunks don't depend on the number of threads.
-  std::span<const Index> chunk_first() const noexcept { return chunk_first_; }
-  Index chunk_count() const noexcept { return static_cast<Index>(chunk_first_.size()) - 1; }
+  /// Entries of the spheres of block k: block_first()[k] .. block_first()[k + 1].
+  std::span<const Index> block_first() const noexcept { return block_first_; }
+  Index block_count() const noexcept { return static_cast<Index>(block_first_.size()) - 1; }
   std::span<std::uint8_t> touched() noexcept { return touched_; }
   Index slots() const noexcept { return static_cast<Index>(entries_.size()); }
 
   template <class Self, class Visitor>
   static void visit_state(Self& self, Visitor&& visit) {
     visit("entries", self.entries_);
-    visit("chunk_first", self.chunk_first_);
+    visit("block_first", self.block_first_);
     visit("touched", self.touched_);
   }
 
  private:
   std::vector<Entry> entries_;
-  std::vector<Index> chunk_first_{0};
+  std::vector<Index> block_first_{0, 0};
   std::vector<std::uint8_t> touched_;
 };
 

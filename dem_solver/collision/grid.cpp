@@ -12,7 +12,7 @@ struct Extent {
   double low = 0, high = 0;
 };
 
-constexpr std::size_t sample_size = 10'000;  // enough for a thousandth to be ten points
+constexpr std::size_t sample_size = 2'000;  // enough for a thousandth to be two points
 
 /// The span that holds all but the outermost thousandth of the values on either side, so that strays don't
 /// spread the grid.

@@ -6,31 +6,32 @@
 #include <numeric>
 
 #include "core/parallel.hpp"
+#include "dem_solver/collision/block_sweep.hpp"
 #include "dem_solver/collision/size_classes.hpp"
 
 namespace talus::dem {
 
 namespace {
 
-/// Enough blocks to share among threads; fewer have fewer edges, whose spheres two blocks read.
-constexpr Index most_blocks = 32;
 constexpr Index fewest_layers_a_block =
     2 * CellGrid::layers_a_cell;  // so that every second block is out of reach
 
-/// Ends of blocks of neighbouring layers, of about equally many spheres. Their number is a power of two, so that
-/// the even blocks, and the odd ones, can be shared evenly among 2, 4 or 8 threads.
-std::vector<Index> cut_into_blocks(std::span<const std::int64_t> spheres_of_layer) {
-  const auto layers = static_cast<Index>(spheres_of_layer.size());
+/// Time of a contact over that of a sphere: measured (bench settling, falling and settled), 1.5 to 2.
+constexpr std::int64_t work_of_contact = 2;
+
+/// Ends of blocks of neighbouring layers, of about equal work. Their number is a power of two, so that they can
+/// be shared evenly among 2, 4 or 8 threads.
+std::vector<Index> cut_into_blocks(std::span<const std::int64_t> work_of_layer) {
+  const auto layers = static_cast<Index>(work_of_layer.size());
   const auto most = static_cast<unsigned>(std::max(1, layers / fewest_layers_a_block));
-  const Index blocks = std::min(most_blocks, static_cast<Index>(std::bit_floor(most)));
-  const auto all = std::accumulate(spheres_of_layer.begin(), spheres_of_layer.end(), std::int64_t{0});
+  const Index blocks = std::min(most_sweep_blocks, static_cast<Index>(std::bit_floor(most)));
+  const auto all = std::accumulate(work_of_layer.begin(), work_of_layer.end(), std::int64_t{0});
   std::vector<Index> ends;
-  std::int64_t up_to = 0;  // spheres of the layers before `end`
+  std::int64_t up_to = 0;  // work of the layers before `end`
   for (Index k = 0, end = 0; k < blocks; ++k) {
     const Index least = std::min(end + fewest_layers_a_block, layers);
     const Index most_end = layers - (blocks - 1 - k) * fewest_layers_a_block;
-    while (end < least || (end < most_end && up_to * blocks < (k + 1) * all))
-      up_to += spheres_of_layer[end++];
+    while (end < least || (end < most_end && up_to * blocks < (k + 1) * all)) up_to += work_of_layer[end++];
     ends.push_back(k + 1 < blocks ? end : layers);
   }
   return ends;
@@ -41,35 +42,38 @@ std::vector<Index> cut_into_blocks(std::span<const std::int64_t> spheres_of_laye
 struct SpatialOrder {
   std::vector<Index> order;        ///< order[new place] = old place
   std::vector<Index> block_first;  ///< in new places
-  std::vector<Index> layer;        ///< of each old place
+  std::vector<Index> layer;        ///< in new places
 };
 
-SpatialOrder spatial_order(const Spheres& spheres, double cell_size) {
+SpatialOrder spatial_order(const Spheres& spheres, std::span<const Index> contacts, double cell_size) {
   const CellGrid grid(spheres.position, cell_size);
-  SpatialOrder sorted;
-  std::vector<std::int64_t> spheres_of_layer(static_cast<std::size_t>(grid.layer_count()));
-  for (Index i = 0; i < spheres.size(); ++i) {
-    sorted.layer.push_back(grid.layer(spheres.position[i]));
-    ++spheres_of_layer[sorted.layer.back()];
+  const std::size_t count = spheres.position.size();
+  std::vector<Index> layer(count);
+  std::vector<std::int64_t> work_of_layer(static_cast<std::size_t>(grid.layer_count()));
+  for (std::size_t i = 0; i < count; ++i) {
+    layer[i] = grid.layer(spheres.position[i]);
+    work_of_layer[layer[i]] += 1 + (contacts.empty() ? 0 : work_of_contact * contacts[i]);
   }
   std::vector<CellGrid::LayerBlock> blocks, block_of;  // the latter of each layer
   Index begin = 0, cells = 0;
-  for (const Index end : cut_into_blocks(spheres_of_layer)) {
+  for (const Index end : cut_into_blocks(work_of_layer)) {
     blocks.push_back(grid.block_of_layers(begin, end, cells));
     block_of.resize(static_cast<std::size_t>(end), blocks.back());
     cells += grid.cells_of(blocks.back());
     begin = end;
   }
-  std::vector<Index> all(spheres.position.size()), cell_of(spheres.position.size());
+  std::vector<Index> all(count), cell_of(count);
   std::iota(all.begin(), all.end(), 0);
-  for (Index i : all)
-    cell_of[i] = grid.number_in_block(grid.cell(spheres.position[i]), block_of[sorted.layer[i]]);
+  for (const Index i : all)
+    cell_of[i] = grid.number_in_block(grid.cell(spheres.position[i]), block_of[layer[i]]);
   CellMembers members;
   members.fill(all, cell_of, cells);
+
+  SpatialOrder sorted{.order = std::move(members.points)};
   for (const CellGrid::LayerBlock& block : blocks)
     sorted.block_first.push_back(members.first[block.cells_before]);
   sorted.block_first.push_back(members.first.back());
-  sorted.order = std::move(members.points);
+  for (const Index i : sorted.order) sorted.layer.push_back(layer[i]);
   return sorted;
 }
 
@@ -140,11 +144,25 @@ SlotMove find_slot(const PairList& list, const OldContact& old) {
   return {old.slot, -1, false};
 }
 
+std::vector<SlotMove> moves_to(const PairList& list, std::span<const OldContact> old, int threads) {
+  std::vector<SlotMove> moves(old.size());
+  core::parallel_runs({static_cast<std::int64_t>(old.size()), threads}, [&](core::Block run) {
+    for (auto k = run.begin; k < run.end; ++k) moves[k] = find_slot(list, old[k]);
+  });
+  std::erase_if(moves, [](const SlotMove& move) { return move.to < 0; });
+  return moves;
+}
+
 }  // namespace
 
-PairList::Rebuilt PairList::rebuild(Spheres& spheres, double skin, int threads) {
-  SizeClasses classes(spheres, skin);
-  SpatialOrder sorted = spatial_order(spheres, classes.main_cell());
+void PairList::count_contacts(std::span<Index> contacts) const noexcept {
+  for (Index i = 0; i + 1 < static_cast<Index>(first_.size()); ++i)
+    for (Index slot = first_[i]; slot < first_[i + 1]; ++slot) contacts[i] += touched_[slot];
+}
+
+PairList::Rebuilt PairList::rebuild(Spheres& spheres, const Search& search) {
+  SizeClasses classes(spheres, search.skin);
+  SpatialOrder sorted = spatial_order(spheres, search.contacts, classes.main_cell());
   std::vector<Index> new_place(sorted.order.size());
   for (std::size_t i = 0; i < sorted.order.size(); ++i) new_place[sorted.order[i]] = static_cast<Index>(i);
   const std::vector<OldContact> old = old_contacts(*this, new_place);
@@ -152,30 +170,23 @@ PairList::Rebuilt PairList::rebuild(Spheres& spheres, double skin, int threads) 
   spheres.reorder(sorted.order);
   classes.build_cells(spheres);
   block_first_ = std::move(sorted.block_first);
-  std::vector<Index> layer(sorted.layer.size());
-  for (std::size_t i = 0; i < layer.size(); ++i) layer[i] = sorted.layer[sorted.order[i]];
   std::vector<BlockPairs> found(static_cast<std::size_t>(block_count()));
-  core::parallel_tasks({block_count(), threads}, [&](std::int64_t k) {
-    found[k] = search_block(spheres, classes, layer, skin, block_first_[k], block_first_[k + 1]);
+  core::parallel_tasks({block_count(), search.threads}, [&](std::int64_t k) {
+    found[k] =
+        search_block(spheres, classes, sorted.layer, search.skin, block_first_[k], block_first_[k + 1]);
   });
 
   first_.assign(1, 0);
   other_.clear();
   wide_.clear();
   for (const BlockPairs& part : found) {
-    for (Index count : part.count) first_.push_back(first_.back() + count);
+    for (const Index count : part.count) first_.push_back(first_.back() + count);
     other_.insert(other_.end(), part.other.begin(), part.other.end());
     wide_.insert(wide_.end(), part.wide.begin(), part.wide.end());
   }
   touched_.assign(other_.size() + wide_.size(), 0);
-
-  std::vector<SlotMove> moves;
-  for (const OldContact& contact : old) {
-    const SlotMove move = find_slot(*this, contact);
-    if (move.to < 0) continue;
-    touched_[move.to] = 1;
-    moves.push_back(move);
-  }
+  std::vector<SlotMove> moves = moves_to(*this, old, search.threads);
+  for (const SlotMove& move : moves) touched_[move.to] = 1;
   return {std::move(new_place), std::move(moves)};
 }
 

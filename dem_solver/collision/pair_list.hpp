@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "core/parallel.hpp"
 #include "dem_solver/collision/grid.hpp"
 #include "dem_solver/collision/slot_move.hpp"
 #include "dem_solver/particles/spheres.hpp"
@@ -14,15 +15,12 @@ namespace talus::dem {
 /// more than equal sizes.
 ///
 /// Every pair has a slot, where its contact law keeps its memory. The spheres are sorted into blocks of layers,
-/// two cells thick or more and of about equally many; a pair belongs to one of its spheres, its owner, and
-/// reaches no further than a cell. Every second block therefore never writes to the same
-/// sphere as the others, and two passes, over the even blocks and over the odd ones, may add forces in place,
-/// by any number of threads, in an order that does not depend on it. The few pairs that reach further (a
-/// boulder among sand) come last, one after the other.
+/// two cells thick or more and of about equal work; a pair belongs to one of its spheres, its owner, and
+/// reaches no further than a cell. Of every second block no two therefore write to the same sphere, and forces
+/// may be added in place, by any number of threads, in an order that does not depend on it (sweep_blocks). The
+/// few pairs that reach further (a boulder among sand) come last, one after the other.
 class PairList {
  public:
-  static constexpr int passes = 2;
-
   struct WidePair {
     Index first = 0, second = 0;
   };
@@ -31,13 +29,23 @@ class PairList {
     std::vector<SlotMove> moves;   ///< where the memory of each touching pair goes
   };
 
-  /// Sorts `spheres` in space and finds all pairs with surfaces nearer than `skin`.
-  Rebuilt rebuild(Spheres& spheres, double skin, int threads);
+  struct Search {
+    double skin = 0;  ///< m
+    int threads = 1;
+    /// Of each sphere at the last evaluation, to cut blocks of equal work; empty: not known.
+    std::span<const Index> contacts{};
+  };
+  /// Sorts `spheres` in space and finds all pairs with surfaces nearer than the skin.
+  Rebuilt rebuild(Spheres& spheres, const Search& search);
+
+  /// Adds to each sphere the pairs it owns that touched at the last evaluation.
+  void count_contacts(std::span<Index> contacts) const noexcept;
 
   Index slots() const noexcept { return static_cast<Index>(touched_.size()); }
   Index block_count() const noexcept { return static_cast<Index>(block_first_.size()) - 1; }
   /// Spheres of block k: block_first()[k] .. block_first()[k + 1]
   std::span<const Index> block_first() const noexcept { return block_first_; }
+  core::Block places(Index block) const noexcept { return {block_first_[block], block_first_[block + 1]}; }
   /// Partners of sphere i: other()[first()[i]] .. other()[first()[i + 1]]; the place is the slot.
   std::span<const Index> first() const noexcept { return first_; }
   std::span<const Index> other() const noexcept { return other_; }

@@ -36,13 +36,12 @@ class BoundaryContacts : public ContactBatch<Law> {
   void evaluate(const Context& context) noexcept {
     const auto count = static_cast<Index>(context.list.spheres().size());
     const Index tasks = (count + chunk - 1) / chunk;
-    this->clear_work();
     core::parallel_tasks({tasks, context.threads}, [&](std::int64_t task) {
       const auto begin = static_cast<Index>(task) * chunk;
       ContactWork work;
       for (Index k = begin; k < std::min(count, begin + chunk); ++k)
         evaluate_sphere(context, k, scratch_[task], work);
-      this->add_work(static_cast<Index>(task), work);
+      this->set_work(static_cast<Index>(task), work);
     });
     collect_reactions(context);
   }
@@ -54,7 +53,6 @@ class BoundaryContacts : public ContactBatch<Law> {
                           const ImplicitSystem::Scene& scene) noexcept {
     const auto spheres = static_cast<Index>(context.list.spheres().size());
     if (scratch_.empty()) return 0;
-    this->clear_work();
     ContactWork work;
     for (Index k = 0; k < spheres; ++k) find_contacts(context, k, scratch_[0], work);
     system_.gather_bodies(scene, context.list.spheres(), implicit, context.step);
@@ -64,7 +62,7 @@ class BoundaryContacts : public ContactBatch<Law> {
     for_each_contact(context, [&](Index k, Index slot) {
       evaluate_contact(context, k, slot, system_.velocity_gain(next++), work);
     });
-    this->add_work(0, work);
+    this->set_work(0, work);
     collect_reactions(context);
     return sweeps;
   }

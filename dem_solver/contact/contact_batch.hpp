@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -43,11 +42,9 @@ class ContactBatch {
     memory_.rebuild(slots, moves);
     if constexpr (Law::has_ledger) task_work_.assign(static_cast<std::size_t>(tasks), {});
   }
-  void clear_work() noexcept {
-    if constexpr (Law::has_ledger) std::ranges::fill(task_work_, ContactWork{});
-  }
-  void add_work(Index task, const ContactWork& work) noexcept {
-    if constexpr (Law::has_ledger) task_work_[task] += work;
+  /// J; of one of the tasks, since the last evaluation.
+  void set_work(Index task, const ContactWork& work) noexcept {
+    if constexpr (Law::has_ledger) task_work_[task] = work;
   }
 
   [[no_unique_address]] ContactMemory<Law> memory_;

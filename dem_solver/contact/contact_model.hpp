@@ -1,14 +1,10 @@
 #pragma once
 
-#include "core/program/stage_clock.hpp"
 #include "dem_solver/contact/boundary_contacts.hpp"
 #include "dem_solver/contact/pair_contacts.hpp"
 #include "dem_solver/contact/plane_contacts.hpp"
 
 namespace talus::dem {
-
-/// Stages of a step whose time is told apart where the scene asks for it.
-enum StepStage : std::size_t { search, between_spheres, with_planes, with_boundary, motion };
 
 /// What contacts work on, and the lists of who may touch whom.
 struct ContactStage {
@@ -24,7 +20,6 @@ struct ContactStage {
   const ImplicitContact* implicit_contact = nullptr;  ///< of the boundary; nullptr: explicit
   double step = 0;                                    ///< s; since the last evaluation
   int threads = 1;
-  core::StageClock* clock = nullptr;  ///< nullptr: nobody asks for times
 };
 
 /// Where the memory of contacts goes when the lists are rebuilt.
@@ -40,10 +35,15 @@ class ContactModel {
   using Law = ComposedLaw;
 
   void rebuild(const ContactStage& stage, const ContactMoves& moves);
-  /// Adds the loads of all contacts to the spheres and sets the boundary's reactions. The lists must be up
-  /// to date.
+  // Each of these adds the loads of some contacts to the spheres. The lists must be up to date, of blocks see
+  // PairList.
+  void between_spheres(const ContactStage& stage, Index block) noexcept;
+  void between_distant_spheres(const ContactStage& stage) noexcept;  ///< of the wide pairs
+  void with_planes(const ContactStage& stage, Index block) noexcept;
+  /// The last one, since implicit contact starts from the velocities that all other loads lead to; it sets the
+  /// boundary's reactions, too.
   /// @return the sweeps that implicit contact needed; 0 where it is explicit
-  int evaluate(const ContactStage& stage) noexcept;
+  int with_boundary(const ContactStage& stage) noexcept;
 
   /// J; since the last evaluation. Zero without a ledger.
   ContactWork last_work() const noexcept;

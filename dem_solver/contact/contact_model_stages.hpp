@@ -13,15 +13,24 @@ void ContactModel<Law>::rebuild(const ContactStage& stage, const ContactMoves& m
 }
 
 template <class Law>
-int ContactModel<Law>::evaluate(const ContactStage& s) noexcept {
-  pairs_.evaluate({s.spheres, s.pair_list, s.table, s.step, s.threads});
-  core::lap(s.clock, between_spheres);
-  if (!s.planes.empty()) planes_.evaluate({s.spheres, s.planes, s.plane_list, s.table, s.step, s.threads});
-  core::lap(s.clock, with_planes);
-  if (s.boundary.empty()) return 0;
+void ContactModel<Law>::between_spheres(const ContactStage& s, Index block) noexcept {
+  pairs_.evaluate_block({s.spheres, s.pair_list, s.table, s.step}, block);
+}
+
+template <class Law>
+void ContactModel<Law>::between_distant_spheres(const ContactStage& s) noexcept {
+  pairs_.evaluate_wide({s.spheres, s.pair_list, s.table, s.step});
+}
+
+template <class Law>
+void ContactModel<Law>::with_planes(const ContactStage& s, Index block) noexcept {
+  planes_.evaluate_block({s.spheres, s.planes, s.plane_list, s.table, s.step}, block);
+}
+
+template <class Law>
+int ContactModel<Law>::with_boundary(const ContactStage& s) noexcept {
   const typename BoundaryContacts<Law>::Context context{s.spheres, s.boundary, s.boundary_list,
                                                         s.table,   s.step,     s.threads};
-  // After all other loads: implicit contact starts from the velocities they lead to.
   if (s.implicit_contact)
     return boundary_.evaluate_implicitly(context, *s.implicit_contact,
                                          {s.spheres, s.rocks, s.place, s.boundary});

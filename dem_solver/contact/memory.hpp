@@ -25,6 +25,8 @@ class ContactMemory {
 
   Slot recall(Index slot) const noexcept { return slots_[slot]; }
   void remember(Index slot, const Slot& memory) noexcept { slots_[slot] = memory; }
+  /// Asks for a slot that is going to be needed.
+  void fetch(Index slot) const noexcept { __builtin_prefetch(&slots_[slot], 1); }
   std::span<const Slot> all() const noexcept { return slots_; }
 
   /// The memory of four contacts as lanes.
@@ -63,6 +65,7 @@ class ContactMemory<Law, 0> {
   void rebuild(Index, std::span<const SlotMove>) noexcept {}
   Slot recall(Index) const noexcept { return {}; }
   void remember(Index, const Slot&) noexcept {}
+  void fetch(Index) const noexcept {}
   template <class Index4>
   TALUS_INLINE typename Law::template Memory<Lanes> lanes(const Index4&) const noexcept {
     return {};

@@ -1,9 +1,7 @@
 #include "dem_solver/integration/leapfrog.hpp"
 
 #include <algorithm>
-#include <atomic>
-
-#include "core/parallel.hpp"
+#include <cmath>
 
 namespace talus::dem {
 
@@ -43,34 +41,24 @@ Extremes move_run(Spheres& spheres, core::Block run, const StepRows& by) noexcep
   return extremes;
 }
 
-void raise(std::atomic<double>& largest, double value) noexcept {
-  double before = largest.load();
-  while (before < value && !largest.compare_exchange_weak(before, value)) {
-  }
-}
-
 template <bool rotates, bool falls>
-MotionSummary move_all(Spheres& spheres, const LeapfrogStep& how) noexcept {
+MotionSummary summary_of_run(Spheres& spheres, core::Block run, const LeapfrogStep& how) noexcept {
   const StepRows by{.gravity = Lanes{how.gravity.x, how.gravity.y, how.gravity.z, 0} * how.kick,
                     .step = Lanes{how.step, how.step, how.step, 0},
                     .kick = Lanes{how.kick, how.kick, how.kick, 0}};
-  std::atomic<double> speed_squared{0};
-  std::atomic<bool> finite{true};
-  core::parallel_runs({spheres.size(), how.threads}, [&](core::Block run) {
-    const Extremes extremes = move_run<rotates, falls>(spheres, run, by);
-    raise(speed_squared, extremes.speed_squared);
-    if (!std::isfinite(extremes.sum)) finite = false;
-  });
-  return {.largest_speed = std::sqrt(speed_squared), .finite = finite};
+  const Extremes extremes = move_run<rotates, falls>(spheres, run, by);
+  return {.largest_speed = std::sqrt(extremes.speed_squared), .finite = std::isfinite(extremes.sum)};
 }
 
 }  // namespace
 
-MotionSummary kick_and_drift(Spheres& spheres, const LeapfrogStep& how) noexcept {
+MotionSummary kick_and_drift(Spheres& spheres, core::Block run, const LeapfrogStep& how) noexcept {
   const bool falls = dot(how.gravity, how.gravity) > 0;
   if (spheres.rotates())
-    return falls ? move_all<true, true>(spheres, how) : move_all<true, false>(spheres, how);
-  return falls ? move_all<false, true>(spheres, how) : move_all<false, false>(spheres, how);
+    return falls ? summary_of_run<true, true>(spheres, run, how)
+                 : summary_of_run<true, false>(spheres, run, how);
+  return falls ? summary_of_run<false, true>(spheres, run, how)
+               : summary_of_run<false, false>(spheres, run, how);
 }
 
 }  // namespace talus::dem

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <algorithm>
+
+#include "core/parallel.hpp"
 #include "dem_solver/particles/spheres.hpp"
 
 namespace talus::dem {
@@ -8,7 +11,6 @@ struct LeapfrogStep {
   Triple<double> gravity;  ///< m/s^2
   double step = 0;         ///< s; from the present positions to the next
   double kick = 0;         ///< s; from the middle of the last step to the middle of this one
-  int threads = 1;
 };
 
 /// m^2/s^2; what v.v_before has to be diminished by where the step before was shorter, to be the product at
@@ -23,9 +25,15 @@ inline double product_of_unequal_steps(const LeapfrogStep& last, const Triple<do
 struct MotionSummary {
   double largest_speed = 0;  ///< m/s
   bool finite = true;        ///< every position and velocity is a number
+
+  MotionSummary& operator+=(const MotionSummary& other) noexcept {
+    largest_speed = std::max(largest_speed, other.largest_speed);
+    finite = finite && other.finite;
+    return *this;
+  }
 };
 
-/// Moves all spheres that are no part of a rock by one step of the leapfrog (symplectic Euler), second order
+/// Moves the spheres of a run of places, except for parts of rocks, by one step of the leapfrog (symplectic Euler), second order
 /// in time:
 ///     v_{n+1/2} = v_{n-1/2} + (F(x_n)/m + g) kick      x_{n+1} = x_n + v_{n+1/2} step
 ///     w_{n+1/2} = w_{n-1/2} + T(x_n)/I kick            I = 2/5 m R^2
@@ -34,6 +42,6 @@ struct MotionSummary {
 /// + 1)/2 exactly. Stable for step < 2 sqrt(m/k). Test: "Free fall follows the discrete parabola to
 /// round-off", "Free fall is exact
 /// in steps of changing length".
-MotionSummary kick_and_drift(Spheres& spheres, const LeapfrogStep& how) noexcept;
+MotionSummary kick_and_drift(Spheres& spheres, core::Block run, const LeapfrogStep& how) noexcept;
 
 }  // namespace talus::dem

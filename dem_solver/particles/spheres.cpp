@@ -18,6 +18,14 @@ void Spheres::add(std::span<const SphereInput> input, bool with_rotation) {
   if (with_rotation) torque.resize(position.size());
 }
 
+void Spheres::clear_loads(core::Block run) noexcept {
+  const auto clear = [run](std::vector<Row>& rows) {
+    for (Row& row : std::span(rows.data() + run.begin, rows.data() + run.end)) store(row, Lanes{});
+  };
+  clear(force);
+  if (rotates()) clear(torque);
+}
+
 namespace {
 template <class T>
 void permute(std::vector<T>& values, std::span<const Index> order) {

@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "core/parallel.hpp"
 #include "dem_solver/particles/row.hpp"
 
 namespace talus::dem {
@@ -34,6 +35,8 @@ struct Spheres {
   bool in_rock(Index i) const noexcept { return !rock.empty() && rock[i] >= 0; }
   bool rotates() const noexcept { return !spin.empty(); }
   void add(std::span<const SphereInput> input, bool with_rotation);
+  /// Sets forces and torques of a run of places to zero.
+  void clear_loads(core::Block run) noexcept;
   /// Moves sphere order[i] to place i.
   void reorder(std::span<const Index> order);
   /// Where each id stands now.

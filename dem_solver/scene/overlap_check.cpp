@@ -13,7 +13,7 @@ void check_overlaps(std::span<const SphereInput> input) {
   Spheres spheres;
   spheres.add(input, false);
   PairList list;
-  list.rebuild(spheres, 0, 1);
+  list.rebuild(spheres, {.skin = 0});
   double deepest = 0;
   std::string where;
   std::int64_t count = 0;

@@ -13,8 +13,8 @@ using namespace talus::dem::cases;
 
 namespace {
 
-/// A box of spheres of sizes 1 : 4 with friction and a ledger, thrown together.
-ParticleModel shaken_box(int threads) {
+/// A box of spheres of sizes 1 : 4, or all of one, with friction and a ledger, thrown together.
+ParticleModel shaken_box(int threads, double largest_over_smallest = 4) {
   const SphereCase c{
       .radius = 0.01, .youngs_modulus = 1e7, .restitution = 0.4, .friction = 0.5, .step = 2e-5};
   ParticleModel model = model_of(c, rigid());
@@ -32,7 +32,7 @@ ParticleModel shaken_box(int threads) {
     for (int j = 0; j < 7; ++j)
       for (int k = 0; k < 4; ++k) {
         SphereCase s = c;
-        s.radius = 0.02 / (1 + 3 * u(random));
+        s.radius = 0.02 / (1 + (largest_over_smallest - 1) * u(random));
         model.spheres.push_back(s.sphere({0.021 + 0.041 * i, 0.021 + 0.041 * j, 0.021 + 0.041 * k},
                                          {2 * u(random) - 1, 2 * u(random) - 1, -1}));
       }
@@ -53,11 +53,20 @@ std::vector<double> state_after(ParticleSolver& solver, int steps) {
 }  // namespace
 
 TEST_CASE("One, two and four threads give the same bits") {
-  ParticleSolver one(shaken_box(1)), two(shaken_box(2)), four(shaken_box(4));
+  const double sizes = GENERATE(1.0, 4.0);
+  ParticleSolver one(shaken_box(1, sizes)), two(shaken_box(2, sizes)), four(shaken_box(4, sizes));
   const auto expected = state_after(one, 3000);
   REQUIRE(one.searches() > 2);
+  CHECK(one.pair_list().wide().empty() == (sizes == 1));
   CHECK(state_after(two, 3000) == expected);
   CHECK(state_after(four, 3000) == expected);
+}
+
+TEST_CASE("Stages whose time is told apart give the bits of those that go through a block at once") {
+  ParticleSolver at_once(shaken_box(2, 1)), told_apart(shaken_box(2, 1));
+  core::StageClock clock("particles", {"search", "spheres", "planes", "boundary", "motion"});
+  told_apart.measure_stages(clock);
+  CHECK(state_after(told_apart, 3000) == state_after(at_once, 3000));
 }
 
 TEST_CASE("A copy of the solver continues with the same bits") {
@@ -155,7 +164,7 @@ TEST_CASE("The neighbour list finds every touching pair of sizes 1 to 200") {
   spheres.add(input, false);
   PairList list;
   const double skin = 0.001;
-  list.rebuild(spheres, skin, 1);
+  list.rebuild(spheres, {.skin = skin});
   std::size_t expected = 0;
   for (std::size_t i = 0; i < input.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)

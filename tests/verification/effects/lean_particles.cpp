@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "dem_solver/collision/block_sweep.hpp"
 #include "dem_solver/integration/leapfrog.hpp"
 
 namespace talus::test {
@@ -17,9 +18,15 @@ LeanParticles::LeanParticles(const ParticleModel& model)
 
 void LeanParticles::step() {
   find_neighbours();
-  for (Index i = 0; i < spheres_.size(); ++i) spheres_.force[i] = {};
-  contacts_.evaluate(contact_stage());
-  const MotionSummary motion = kick_and_drift(spheres_, {.gravity = {}, .step = step_, .kick = step_});
+  const ContactStage stage = contact_stage();
+  MotionSummary motion;
+  sweep_blocks(
+      {pair_list_.block_count(), 1}, [&](Index block) { spheres_.clear_loads(pair_list_.places(block)); },
+      [&](Index block) { contacts_.between_spheres(stage, block); },
+      [&](Index block) {
+        motion +=
+            kick_and_drift(spheres_, pair_list_.places(block), {.gravity = {}, .step = step_, .kick = step_});
+      });
   if (!motion.finite) throw std::runtime_error("velocities overflow");
   approached_ += 2 * motion.largest_speed * step_;
 }
@@ -41,7 +48,9 @@ void LeanParticles::find_neighbours() {
   if (listed_ && approached_ < skin_) return;
   if (listed_) approached_ = largest_approach();
   if (listed_ && approached_ < skin_) return;
-  const auto rebuilt = pair_list_.rebuild(spheres_, skin_, 1);
+  std::vector<Index> contacts(spheres_.position.size());
+  pair_list_.count_contacts(contacts);
+  const auto rebuilt = pair_list_.rebuild(spheres_, {.skin = skin_, .contacts = contacts});
   contacts_.rebuild(contact_stage(), {rebuilt.moves, {}, {}});
   place_ = spheres_.places();
   listed_position_ = spheres_.position;
