@@ -4,7 +4,8 @@
 # --peers runs LIGGGHTS and LAMMPS (Debian packages liggghts and lammps) on the same bed, material and step, one after the other, and
 # prints how many times faster Talus is. Rates fall as contacts form, so only equal --n, --settle and --steps compare; on a busy machine
 # read the ratios, and repeat.
-# --scaling runs 10 000, 100 000 and 1 000 000 spheres for the same steps instead, and prints the time of a particle-step over that of the first.
+# --scaling runs 10 000, 100 000 and 1 000 000 spheres for the same steps instead, three times in turn, and prints the least time of a
+# particle-step over that of the first, and where it goes.
 # --speedup runs 10 000 and 50 000 spheres with one thread and with --threads (2), five times in turn, and prints the ratio of the highest rates
 # (what others on the machine take only ever lowers them) beside what the machine gives to arithmetic alone and to copying alone.
 set -euo pipefail
@@ -29,13 +30,23 @@ export GOMP_SPINCOUNT=${GOMP_SPINCOUNT:-20000}
 
 number_of() { sed -n "s/.*\"$2\":\([0-9.e+-]*\).*/\1/p" <<<"$1"; }
 
+highest() { printf '%s\n' "$@" | sort -g | tail -n 1; }
+
 if [ $scaling = yes ]; then
+  declare -A rates
+  for round in 1 2 3; do
+    for n in 10000 100000 1000000; do
+      line=$("$program" --n $n --steps "$steps" --settle "$settle" --threads "$threads")
+      rates[$n]+=" $(number_of "$line" particle_steps_per_s)"
+      [ $round = 3 ] && echo "$line"
+    done
+  done
   for n in 10000 100000 1000000; do
-    line=$("$program" --n $n --steps "$steps" --settle "$settle" --threads "$threads")
-    echo "$line"
-    rate=$(number_of "$line" particle_steps_per_s)
-    awk -v n=$n -v first="${first_rate:=$rate}" -v rate="$rate" \
-      'BEGIN { printf "{\"n\":%d,\"time_of_a_particle_step_over_first\":%.3f}\n", n, first / rate }'
+    awk -v n=$n -v first="$(highest ${rates[10000]})" -v rate="$(highest ${rates[$n]})" \
+      'BEGIN { printf "{\"n\":%d,\"ns_of_a_particle_step\":%.1f,\"over_first\":%.3f}\n", n, 1e9 / rate, first / rate }'
+  done
+  for n in 10000 1000000; do
+    "$program" --n $n --steps "$steps" --settle "$settle" --threads "$threads" --stages | head -n 1
   done
   exit 0
 fi
@@ -50,7 +61,6 @@ if [ $speedup = yes ]; then
       one+=("$(rate_of $n 1)")
       several+=("$(rate_of $n "$threads")")
     done
-    highest() { printf '%s\n' "$@" | sort -g | tail -n 1; }
     machine=$("$program" --machine --threads "$threads")
     awk -v n=$n -v threads="$threads" -v one="$(highest "${one[@]}")" -v several="$(highest "${several[@]}")" -v machine="${machine#*,}" \
       'BEGIN { printf "{\"n\":%d,\"threads\":%d,\"particle_steps_per_s\":%.0f,\"speedup\":%.2f,%s\n", n, threads, several, several / one, machine }'

@@ -20,15 +20,20 @@ Vector3 vector(const Triple<double>& v) {
   return {v.x, v.y, v.z};
 }
 
-/// Twice the area, with the direction of the normal.
-Vector3 area_vector(const MembranePatch& patch) {
+struct Facing {
+  Vector3 unit_normal;
+  double twice_area = 0;  ///< m^2
+};
+
+Facing facing(const MembranePatch& patch) {
   const auto& [a, b, c] = patch.nodes;
   const Vector3 edge = b - a, other = c - a, normal = edge.cross(other);
+  const double twice_area = normal.norm();
   constexpr double flattest = 1e-9;  // height over edge; below it the gradients have lost half their digits
-  if (!(normal.norm() > flattest * std::max(edge.squaredNorm(), other.squaredNorm())))
+  if (!(twice_area > flattest * std::max(edge.squaredNorm(), other.squaredNorm())))
     throw core::ConfigError(fmt::format("a membrane triangle has no area: its nodes are {}, {}, {} m",
                                         place(a), place(b), place(c)));
-  return normal;
+  return {normal / twice_area, twice_area};
 }
 
 Vector3 first_axis(const MembranePatch& patch, const Vector3& unit_normal) {
@@ -45,9 +50,7 @@ Vector3 first_axis(const MembranePatch& patch, const Vector3& unit_normal) {
 }  // namespace
 
 MembraneTriangle<double> membrane_triangle(const MembranePatch& patch) {
-  const Vector3 normal = area_vector(patch);
-  const double twice_area = normal.norm();
-  const Vector3 unit_normal = normal / twice_area;
+  const auto [unit_normal, twice_area] = facing(patch);
   const Vector3 A1 = first_axis(patch, unit_normal), A2 = unit_normal.cross(A1);
   const Vector3 b = patch.nodes[1] - patch.nodes[0], c = patch.nodes[2] - patch.nodes[0];
   return {{triple(A1), triple(A2)},

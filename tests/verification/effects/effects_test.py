@@ -50,22 +50,45 @@ particles:
     down: {material: stone, count: 1000, radius: [10 mm], low: [0, 0, 0], high: [0.24, 0.24, 0.24], velocity: [0, 0, -2]}
     up: {material: stone, count: 1000, radius: [10 mm], low: [0, 0, -0.25], high: [0.24, 0.24, -0.01], velocity: [0, 0, 2]}
 """
+BED = """
+time: {end: 1 s, step: 10 us}
+particles:
+  unstable_step: allowed
+  materials:
+    stone: {density: 2600 kg/m^3, youngs_modulus: 1e7 Pa, poissons_ratio: 0.25}
+    wire: {youngs_modulus: 1e7 Pa, poissons_ratio: 0.25}
+  contacts: [{between: [stone, stone], hertz: {restitution: 0.5}}, {between: [stone, wire], hertz: {restitution: 0.5}}]
+  streams: {down: {material: stone, count: 2000, radius: [10 mm], low: [0, 0, -0.05], high: [0.6, 0.6, 0.06], velocity: [0, 0, -1]}}
+  boundaries: {net: {square_net: {corner: [0 m, 0 m, 0 m], size: [0.6 m, 0.6 m], pitch: 0.02 m}, material: wire}}
+"""
+MEMBRANE = """
+time: {end: 1 s, step: 10 us}
+structure:
+  unstable_step: allowed
+  parts:
+    net:
+      sheet: {corner: [0 m, 0 m, 0 m], size: [3 m, 3 m], crossed_cell: [0.1 m, 0.1 m]}
+      membrane: {thickness: 1 mm, density: 1000 kg/m^3, isotropic: {youngs_modulus: 1 GPa, poissons_ratio: 0.3}, prestress: {xx: 1 MPa, yy: 1 MPa}}
+  supports: [{nodes: net.rim, fix: xyz}]
+  initial_velocities: [{nodes: net, velocity: [0, 0, -5]}]
+"""
 STONES_WITH = "contacts: [{between: [stone, stone], hertz: {restitution: 0.5}, friction: {%s}%s}]"
 
 GATES = ", ".join(f"at_{k}: {{point: [0, 0, {0.008 * (k - 30):.3f}], normal: [0, 0, -1]}}" for k in range(60))
 
 # Bases, each without any optional effect: program, scene, steps.
 BASES = {"net": ("count_structure", NET, 20), "rope": ("count_structure", ROPE, 40),
-         "spheres": ("count_particles", SPHERES, 40)}
+         "membrane": ("count_structure", MEMBRANE, 20), "spheres": ("count_particles", SPHERES, 40), "spheres and wires": ("count_particles", BED, 40)}
 
-# Every optional effect but the tension field, as a change to a base. The comparison with the lean program says nothing unless it would notice the effect.
-# (Valgrind 3.19 does not know an instruction that gcc puts into the set-up of membranes; their laws are types chosen as those of the ropes are.)
+# Every optional effect, as a change to a base. The comparison with the lean program says nothing unless it would notice the effect.
 EFFECTS = {
     "gravity on the structure": ("net", "structure: {gravity: [0, 0, -9.81]}"),
     "mass-proportional damping": ("net", "structure: {damping: {mass: 5 1/s}}"),
     "stiffness-proportional damping": ("net", "structure: {damping: {stiffness: 1e-7 s}}"),
     "nodal loads": ("net", "structure: {loads: [{nodes: net, force: [0 N, 0 N, -1 N]}]}"),
     "prescribed motion": ("net", "structure: {supports: [{nodes: net.rim, fix: xyz, displacement: [0 m, 0 m, 0.1 m]}]}"),
+    "tension field, principal": ("membrane", "structure: {parts: {net: {membrane: {tension_field: {wrinkle_direction: principal}}}}}"),
+    "tension field, iterated": ("membrane", "structure: {parts: {net: {membrane: {tension_field: {wrinkle_direction: iterated}}}}}"),
     "friction of a rope": ("rope", "structure: {parts: {net: {sliding_cable: {friction: 0.2}}}}"),
     "slides by springs": ("net", """structure:
   parts:
@@ -81,6 +104,7 @@ EFFECTS = {
   materials: {wire: {youngs_modulus: 1e7 Pa, poissons_ratio: 0.25}}
   contacts: [{between: [stone, stone], hertz: {restitution: 0.5}}, {between: [stone, wire], hertz: {restitution: 0.5}}]
   boundaries: {net: {square_net: {corner: [0 m, 0 m, -0.27 m], size: [0.24 m, 0.24 m], pitch: 0.02 m}, material: wire}}"""),
+    "implicit contact": ("spheres and wires", "particles: {implicit_contact: {}}"),
     "rocks": ("spheres", """particles:
   rocks: {dumbbell: {material: stone, spheres: {centres: [[0, 0, 0], [0.01, 0, 0]], radii: [0.01, 0.01]}, at: [0.1, 0.1, 1]}}"""),
     "friction and rotation": ("spheres", "particles: {%s}" % (STONES_WITH % ("coefficient: 0.5", ""))),
@@ -106,7 +130,9 @@ def count(program: str, kind: str, scene: str, steps: int) -> tuple[int, int]:
     if heap.returncode != 0:
         raise AssertionError(f"{' '.join(map(str, command))}: {heap.stderr}")
     counted = subprocess.run(["valgrind", "--tool=callgrind", "--toggle-collect=*counted_steps*", f"--callgrind-out-file={folder}/out", *command, str(steps)],
-                             capture_output=True, text=True, check=True)
+                             capture_output=True, text=True)
+    if counted.returncode != 0:  # valgrind 3.19 lacks vmovq between registers in its short form, which gcc may put anywhere
+        raise AssertionError(f"{' '.join(map(str, command))}: {counted.stderr[:2000]}")
     return int(re.search(r"Collected : (\d+)", counted.stderr).group(1)), int(heap.stdout)
 
 

@@ -27,6 +27,10 @@ void LeanParticles::step() {
         motion +=
             kick_and_drift(spheres_, pair_list_.places(block), {.gravity = {}, .step = step_, .kick = step_});
       });
+  watch(motion);
+}
+
+void LeanParticles::watch(const MotionSummary& motion) {
   if (!motion.finite) throw std::runtime_error("velocities overflow");
   approached_ += 2 * motion.largest_speed * step_;
 }
@@ -73,6 +77,37 @@ double LeanParticles::largest_approach() const noexcept {
     most = std::max(most, squared);
   }
   return std::sqrt(most) + std::sqrt(second);
+}
+
+LeanParticlesAndWires::LeanParticlesAndWires(const ParticleModel& model) : LeanParticles(model) {
+  boundary_ = model.boundary;
+}
+
+void LeanParticlesAndWires::step() {
+  find_neighbours();
+  const ContactStage stage = contact_stage();
+  sweep_blocks(
+      {pair_list_.block_count(), 1}, [&](Index block) { spheres_.clear_loads(pair_list_.places(block)); },
+      [&](Index block) { contacts_.between_spheres(stage, block); }, [](Index) {});
+  contacts_.with_boundary(stage);
+  MotionSummary motion;
+  for (Index block = 0; block < pair_list_.block_count(); ++block)
+    motion +=
+        kick_and_drift(spheres_, pair_list_.places(block), {.gravity = {}, .step = step_, .kick = step_});
+  watch(motion);
+}
+
+void LeanParticlesAndWires::find_neighbours() {
+  if (listed_) {
+    if (approached_ + boundary_list_.boundary_motion(boundary_) < skin_) return;
+    throw std::runtime_error("the first lists are used up");
+  }
+  const auto rebuilt = pair_list_.rebuild(spheres_, {.skin = skin_});
+  const auto moves = boundary_list_.rebuild(boundary_, spheres_, rebuilt.new_place, 2 * skin_);
+  contacts_.rebuild(contact_stage(), {rebuilt.moves, {}, moves});
+  place_ = spheres_.places();
+  listed_position_ = spheres_.position;
+  listed_ = true;
 }
 
 }  // namespace talus::test

@@ -10,15 +10,16 @@ namespace talus::test {
 /// The particle solver as it would be if it knew spheres with Hertz contacts and nothing else: no gravity,
 /// planes, boundary, rocks, rotation, friction, gates, ledger. Composed of the same kernels; the contact model's
 /// lists of planes and boundaries are empty.
-class LeanParticles final : public Stepper {
+class LeanParticles : public Stepper {
  public:
   explicit LeanParticles(const dem::ParticleModel& model);
   void step() override;
 
- private:
+ protected:
   dem::ContactStage contact_stage();
   void find_neighbours();
   double largest_approach() const noexcept;
+  void watch(const dem::MotionSummary& motion);
 
   dem::Spheres spheres_;
   dem::PairTable pairs_;
@@ -32,6 +33,16 @@ class LeanParticles final : public Stepper {
   std::vector<dem::Index> place_;
   std::vector<dem::Row> listed_position_;
   bool listed_ = false;
+};
+
+/// The same with a boundary of wires whose contacts are explicit, for as many steps as its first lists serve.
+class LeanParticlesAndWires final : public LeanParticles {
+ public:
+  explicit LeanParticlesAndWires(const dem::ParticleModel& model);
+  void step() override;
+
+ private:
+  void find_neighbours();
 };
 
 }  // namespace talus::test
