@@ -4,6 +4,7 @@
 #include <array>
 #include <atomic>
 #include <bitset>
+#include <cstddef>
 
 #include "core/parallel.hpp"
 #include "dem_solver/particles/row.hpp"
@@ -46,6 +47,72 @@ inline SweepStretch stretch_of(core::TeamMember member, Index blocks) noexcept {
 
 inline constexpr Index most_sweep_blocks = 64;
 
+/// What is done with each block, see sweep_blocks().
+template <class Prepare, class Interact, class Finish>
+struct BlockStages {
+  const Prepare& prepare;
+  const Interact& interact;
+  const Finish& finish;
+};
+
+/// The part of a sweep that one thread does.
+template <class Stages>
+class StretchSweep {
+ public:
+  StretchSweep(const Stages& stages, const SweepStretch& stretch, SweepProgress* own)
+      : stages_(stages), own_(own), stretch_(stretch) {}
+
+  void run() {
+    const auto [begin, end, is_first, is_last] = stretch_;
+    if (begin == end) return;
+    prepare_once(end - 1);
+    own_->announce(SweepProgress::last_is_prepared);
+    if (!is_first) own_[-1].wait_for(SweepProgress::last_is_prepared);
+    interact_once(begin);
+    own_->announce(SweepProgress::first_has_interacted);
+    if (!is_last) {
+      own_[1].wait_for(SweepProgress::first_has_interacted);
+      interact_in_turn(end - 1);
+      own_->announce(SweepProgress::last_has_interacted);
+    }
+    for (Index k = begin; k < end; ++k) {
+      for_own(k - 1, k + 1, [this](Index j) { interact_in_turn(j); });
+      if (k > begin || is_first) stages_.finish(k);
+    }
+    if (is_first) return;
+    own_[-1].wait_for(SweepProgress::last_has_interacted);
+    stages_.finish(begin);
+  }
+
+ private:
+  template <class Work>
+  void for_own(Index first, Index last, const Work& work) {
+    for (Index k = std::max(first, stretch_.begin); k <= std::min(last, stretch_.end - 1); ++k) work(k);
+  }
+  void prepare_once(Index k) {
+    if (!prepared_[k]) stages_.prepare(k);
+    prepared_[k] = true;
+  }
+  void interact_once(Index k) {
+    if (interacted_[k]) return;
+    for_own(k - 1, k + 1, [this](Index j) { prepare_once(j); });
+    stages_.interact(k);
+    interacted_[k] = true;
+  }
+  /// After the even blocks beside it, where it is an odd one.
+  void interact_in_turn(Index k) {
+    for_own(k - 1, k + 1, [this](Index j) {
+      if (j % 2 == 0) interact_once(j);
+    });
+    interact_once(k);
+  }
+
+  const Stages& stages_;
+  SweepProgress* own_;  ///< beside those of the threads before and after
+  SweepStretch stretch_;
+  std::bitset<most_sweep_blocks> prepared_, interacted_;
+};
+
 /// Works through a row of blocks of which each interacts with itself and the two beside it, in a wave that
 /// brings a block's memory to the processor once:
 ///
@@ -61,48 +128,11 @@ template <class Prepare, class Interact, class Finish>
 void sweep_blocks(const core::Tasks& blocks, const Prepare& prepare, const Interact& interact,
                   const Finish& finish) {
   constexpr int most_threads = most_sweep_blocks / 2;
+  const BlockStages<Prepare, Interact, Finish> stages{prepare, interact, finish};
   std::array<SweepProgress, most_threads> progress;
   core::parallel_team(std::min(blocks.threads, most_threads), [&](core::TeamMember member) {
-    const auto [begin, end, is_first, is_last] = stretch_of(member, static_cast<Index>(blocks.count));
-    if (begin == end) return;
-    SweepProgress* const own = &progress[member.rank];
-    std::bitset<most_sweep_blocks> prepared, interacted;
-    const auto for_own = [&](Index first, Index last, Index stride, const auto& work) {
-      for (Index k = first; k <= last; k += stride)
-        if (k >= begin && k < end) work(k);
-    };
-    const auto prepare_once = [&](Index k) {
-      if (!prepared[k]) prepare(k);
-      prepared[k] = true;
-    };
-    const auto interact_once = [&](Index k) {
-      if (interacted[k]) return;
-      for_own(k - 1, k + 1, 1, prepare_once);
-      interact(k);
-      interacted[k] = true;
-    };
-    const auto interact_in_turn = [&](Index k) {
-      if (k % 2 == 1) for_own(k - 1, k + 1, 2, interact_once);
-      interact_once(k);
-    };
-
-    prepare_once(end - 1);
-    own->announce(SweepProgress::last_is_prepared);
-    if (!is_first) own[-1].wait_for(SweepProgress::last_is_prepared);
-    interact_once(begin);
-    own->announce(SweepProgress::first_has_interacted);
-    if (!is_last) {
-      own[1].wait_for(SweepProgress::first_has_interacted);
-      interact_in_turn(end - 1);
-      own->announce(SweepProgress::last_has_interacted);
-    }
-    for (Index k = begin; k < end; ++k) {
-      for_own(k - 1, k + 1, 1, interact_in_turn);
-      if (k > begin || is_first) finish(k);
-    }
-    if (is_first) return;
-    own[-1].wait_for(SweepProgress::last_has_interacted);
-    finish(begin);
+    const SweepStretch stretch = stretch_of(member, static_cast<Index>(blocks.count));
+    StretchSweep(stages, stretch, &progress[static_cast<std::size_t>(member.rank)]).run();
   });
 }
 

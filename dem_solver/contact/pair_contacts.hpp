@@ -132,7 +132,8 @@ class PairContacts : public ContactBatch<Law> {
                                   ContactWork& work) noexcept {
     Spheres& s = context.spheres;
     const auto slot = [&](int k) { return pairs[k].slot; };
-    const auto first = [&](int k) { return pairs[k].first; }, second = [&](int k) { return pairs[k].second; };
+    const auto first = [&](int k) { return pairs[k].first; };
+    const auto second = [&](int k) { return pairs[k].second; };
     const Quad<Lanes> pa = gathered(s.position, first), pb = gathered(s.position, second);
     const Quad<Lanes> va = gathered(s.velocity, first), vb = gathered(s.velocity, second);
     const Triple<Lanes> apart = triple(pa) - triple(pb);
