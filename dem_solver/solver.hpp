@@ -37,6 +37,11 @@ struct ParticleModel {
 
 /// Stages of a step whose time is told apart where the scene asks for it.
 enum StepStage : std::size_t { search, between_spheres, with_planes, with_boundary, motion };
+inline core::StageClock make_stage_clock() {
+  return {"particles",
+          {"search_for_neighbours", "contacts_between_spheres", "contacts_with_planes",
+           "contacts_with_the_boundary", "motion"}};
+}
 
 /// Energies at the time level of the forces, t_{n-1} after n steps: the one at which leapfrog energies are
 /// defined (J).

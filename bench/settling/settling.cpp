@@ -9,7 +9,6 @@
 #include "bench/settling/bed.hpp"
 #include "bench/settling/machine.hpp"
 #include "core/program/command_line.hpp"
-#include "core/program/stage_clock.hpp"
 
 /// Times the settling of a bed of spheres and prints one JSON object.
 namespace {
@@ -69,11 +68,11 @@ core::ExitCode print_machine(int threads) {
   return core::ExitCode::success;
 }
 
-void print_stages(std::span<const double> seconds, double particle_steps) {
+void print_stages(const core::StageClock& clock, double particle_steps) {
   fmt::print("{{\"ns_of_a_particle_step\":{{");
-  constexpr const char* names[] = {"search", "between_spheres", "with_planes", "with_boundary", "motion"};
-  for (std::size_t k = 0; k < seconds.size(); ++k)
-    fmt::print("{}\"{}\":{:.2f}", k > 0 ? "," : "", names[k], 1e9 * seconds[k] / particle_steps);
+  for (std::size_t k = 0; k < clock.stages().size(); ++k)
+    fmt::print("{}\"{}\":{:.2f}", k > 0 ? "," : "", clock.stages()[k],
+               1e9 * clock.seconds()[k] / particle_steps);
   fmt::print("}}}}\n");
 }
 
@@ -89,14 +88,14 @@ core::ExitCode run(const Options& options) {
   dem::ParticleSolver solver(bench::model_of(bed, options.threads));
   bed = {};  // so that memory is that of the solver
   for (std::int64_t n = 0; n < options.settle; ++n) solver.step();
-  core::StageClock clock("particles", {"search", "spheres", "planes", "boundary", "motion"});
+  core::StageClock clock = dem::make_stage_clock();
   if (options.stages) solver.measure_stages(clock);
   const std::int64_t searches_before = solver.searches();
   const auto start = std::chrono::steady_clock::now();
   for (std::int64_t n = 0; n < options.steps; ++n) solver.step();
   const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const double particle_steps = static_cast<double>(options.count) * static_cast<double>(options.steps);
-  if (options.stages) print_stages(clock.seconds(), particle_steps);
+  if (options.stages) print_stages(clock, particle_steps);
   fmt::print(
       "{{\"peer\":\"talus\",\"n\":{},\"steps\":{},\"settle\":{},\"threads\":{},\"wall_s\":{:.3f},\"particle_"
       "steps_per_s\":{:.0f},"
@@ -124,8 +123,7 @@ int main(int argc, char** argv) {
   app.add_option("--write-data", options.write_data,
                  "write the bed as a LIGGGHTS data file and print the box's side instead");
   app.add_flag("--stages", options.stages,
-               "print the nanoseconds of a particle-step in each stage, too: search, spheres, planes, "
-               "boundary, motion");
+               "let the stages follow each other, and print the nanoseconds of a particle-step in each, too");
   app.add_flag("--machine", options.machine,
                "print what so many threads gain on this machine at best instead");
   return core::run_main(app, argc, argv, [&] { return run(options); });

@@ -30,6 +30,7 @@ class StageClock {
   void describe(std::vector<ProbeDescription>& probes) const {
     for (const auto& stage : stages_) probes.push_back({side_ + "_time." + stage + "_s"});
   }
+  std::span<const std::string> stages() const noexcept { return stages_; }
   std::span<const double> seconds() const noexcept { return seconds_; }
 
  private:

@@ -29,9 +29,7 @@ ParticleModel model_of(const RunScene& scene, const mesh::Surface& surface) {
 
 std::unique_ptr<core::StageClock> clock_of(const RunScene& scene) {
   if (!scene.output || !scene.output->stage_times) return nullptr;
-  return std::make_unique<core::StageClock>(
-      "particles", std::vector<std::string>{"search_for_neighbours", "contacts_between_spheres",
-                                            "contacts_with_planes", "contacts_with_the_boundary", "motion"});
+  return std::make_unique<core::StageClock>(make_stage_clock());
 }
 
 NamedBodies named_bodies(const ParticlesScene& particles) {

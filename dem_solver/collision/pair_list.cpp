@@ -16,7 +16,7 @@ namespace {
 constexpr Index fewest_layers_a_block =
     2 * CellGrid::layers_a_cell;  // so that every second block is out of reach
 
-/// Time of a contact over that of a sphere: measured (bench settling, falling and settled), 1.5 to 2.
+/// Time of a contact over that of a sphere; 1.5 to 2 by the time of blocks with few and with many of them.
 constexpr std::int64_t work_of_contact = 2;
 
 /// Ends of blocks of neighbouring layers, of about equal work. Their number is a power of two, so that they can

@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "dem_solver/contact/law.hpp"
 #include "dem_solver/contact/memory.hpp"
 #include "dem_solver/contact/work.hpp"
 
@@ -45,6 +46,21 @@ class ContactBatch {
   /// J; of one of the tasks, since the last evaluation.
   void set_work(Index task, const ContactWork& work) noexcept {
     if constexpr (Law::has_ledger) task_work_[task] = work;
+  }
+
+  /// The loads of four contacts, of which the first `active` remember and do work.
+  /// @param slot slot(k): where the k-th contact keeps its memory
+  template <class Slot>
+  TALUS_INLINE ContactLoad<Lanes> loads_of_four(const Touch<Lanes>& touch,
+                                                const ContactParameters<Lanes>& parameters, double step,
+                                                const Slot& slot, int active, ContactWork& work) noexcept {
+    auto memory = memory_.lanes(slot);
+    ContactLoss<Lanes> loss;
+    const ContactLoad<Lanes> load = Law::evaluate(touch, parameters, step, memory, loss);
+    memory_.store_lanes(slot, active, memory);
+    if constexpr (Law::has_ledger)
+      for (int k = 0; k < active; ++k) work += {.damping = loss.damping[k], .friction = loss.friction[k]};
+    return load;
   }
 
   [[no_unique_address]] ContactMemory<Law> memory_;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "dem_solver/contact/law.hpp"
@@ -44,11 +45,12 @@ TALUS_INLINE ContactParameters<Lanes> gathered_parameters(const Of& of) noexcept
   return p;
 }
 
-/// The last group is filled up with its own last contact, whose results are not stored. @pre room for four
-/// more than `count`
-template <class Contact>
-TALUS_INLINE void fill_up(Contact* contacts, int count) noexcept {
+/// Calls evaluate(four, active) for the contacts in groups of four. The last group is filled up with its own
+/// last contact, whose results are not to be stored. @pre room for four more than `count`
+template <class Contact, class Evaluate>
+TALUS_INLINE void in_fours(Contact* contacts, int count, const Evaluate& evaluate) noexcept {
   for (int k = 0; k < lane_count; ++k) contacts[count + k] = contacts[count > 0 ? count - 1 : 0];
+  for (int k = 0; k < count; k += lane_count) evaluate(contacts + k, std::min(count - k, lane_count));
 }
 
 }  // namespace talus::dem

@@ -104,11 +104,11 @@ class PairContacts : public ContactBatch<Law> {
   /// Evaluates the pairs collected so far.
   /// @return how many are left: none
   int flush(const Context& context, Buffer& pairs, int count, ContactWork& work) noexcept {
-    fill_up(pairs, count);
-    for (int k = 0; k < count; k += lane_count) {
-      if (k + prefetched_ahead + lane_count <= count) fetch_partners(context, pairs + k + prefetched_ahead);
-      evaluate_four(context, pairs + k, std::min(count - k, lane_count), work);
-    }
+    in_fours(pairs, count, [&](const TouchingPair* four, int active) {
+      const TouchingPair* const ahead = four + prefetched_ahead;
+      if (ahead + lane_count <= pairs + count) fetch_partners(context, ahead);
+      evaluate_four(context, four, active, work);
+    });
     return 0;
   }
 
@@ -163,10 +163,7 @@ class PairContacts : public ContactBatch<Law> {
     const auto parameters = gathered_parameters<Law>([&](int k) -> const PairParameters& {
       return context.table(s.material[first(k)], s.material[second(k)]);
     });
-    auto memory = memory_.lanes(slot);
-    ContactLoss<Lanes> loss;
-    const ContactLoad<Lanes> load = Law::evaluate(touch, parameters, context.step, memory, loss);
-    memory_.store_lanes(slot, active, memory);
+    const ContactLoad<Lanes> load = this->loads_of_four(touch, parameters, context.step, slot, active, work);
 
     scatter(s.force, first, active, load.force);
     scatter(s.force, second, active, -1.0 * load.force);
@@ -180,8 +177,6 @@ class PairContacts : public ContactBatch<Law> {
       scatter(s.torque, first, active, on_a);
       scatter(s.torque, second, active, on_b);
     }
-    if constexpr (Law::has_ledger)
-      for (int k = 0; k < active; ++k) work += {.damping = loss.damping[k], .friction = loss.friction[k]};
   }
 };
 

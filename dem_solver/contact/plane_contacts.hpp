@@ -5,11 +5,11 @@
 #include "dem_solver/boundary/planes.hpp"
 #include "dem_solver/contact/contact_batch.hpp"
 #include "dem_solver/contact/four_contacts.hpp"
+#include "dem_solver/contact/rigid_contact.hpp"
 
 namespace talus::dem {
 
-/// Contacts of spheres with planes. A plane is rigid in the law: m* = m, R* = R, and the contact point lies on
-/// it.
+/// Contacts of spheres with planes: rigid ones, R* = R.
 template <class Law>
 class PlaneContacts : public ContactBatch<Law> {
  public:
@@ -37,8 +37,9 @@ class PlaneContacts : public ContactBatch<Law> {
     for (Index slot = first[block]; slot < first[block + 1]; ++slot) {
       const auto [i, k] = entries[slot];
       const Row& p = context.spheres.position[i];
-      const bool touches = height_above(context.planes[k], p) < p.w;
-      contacts[count] = {i, k, slot};
+      const double overlap = p.w - height_above(context.planes[k], p);
+      const bool touches = overlap > 0;
+      contacts[count] = {i, k, slot, overlap};
       count += touches | touched[slot];
       touched[slot] = touches;
       if (count == buffer_size) count = flush(context, contacts, count, work);
@@ -54,14 +55,14 @@ class PlaneContacts : public ContactBatch<Law> {
   /// A sphere that touches a plane, or did at the last step and is to forget it.
   struct Touching {
     Index sphere = 0, plane = 0, slot = 0;
+    double overlap = 0;  ///< m
   };
 
   /// Evaluates the contacts collected so far.
   /// @return how many are left: none
   int flush(const Context& context, Touching* contacts, int count, ContactWork& work) noexcept {
-    fill_up(contacts, count);
-    for (int k = 0; k < count; k += lane_count)
-      evaluate_four(context, contacts + k, std::min(count - k, lane_count), work);
+    in_fours(contacts, count,
+             [&](const Touching* four, int active) { evaluate_four(context, four, active, work); });
     return 0;
   }
 
@@ -71,41 +72,25 @@ class PlaneContacts : public ContactBatch<Law> {
     const auto sphere = [&](int k) { return contacts[k].sphere; };
     const auto slot = [&](int k) { return contacts[k].slot; };
     const auto plane = [&](int k) -> const Plane& { return context.planes[contacts[k].plane]; };
-    const auto of_planes = [&](auto value) { return Lanes{value(0), value(1), value(2), value(3)}; };
+    const auto of_contacts = [&](auto value) { return Lanes{value(0), value(1), value(2), value(3)}; };
 
-    const Quad<Lanes> p = gathered(s.position, sphere), v = gathered(s.velocity, sphere);
-    Touch<Lanes> touch;
-    touch.normal = {of_planes([&](int k) { return plane(k).normal.x; }),
-                    of_planes([&](int k) { return plane(k).normal.y; }),
-                    of_planes([&](int k) { return plane(k).normal.z; })};
-    touch.overlap = p.w - of_planes([&](int k) { return height_above(plane(k), s.position[sphere(k)]); });
-    touch.velocity = triple(v);
-    touch.reduced_radius = p.w;
-    touch.reduced_mass = v.w;
-    const Lanes arm = p.w - touch.overlap;
-    if constexpr (Law::has_friction) {
-      touch.spin = triple(gathered(s.spin, sphere));
-      touch.velocity = touch.velocity - arm * cross(touch.spin, touch.normal);
-    }
-    if constexpr (Law::has_ledger) touch.travelled = touch.velocity;
-    if constexpr (Law::has_rolling) touch.reduced_inertia = 1.4 * v.w * p.w * p.w;  // about the contact point
-
+    RigidMeeting<Lanes> meeting{.position = gathered(s.position, sphere),
+                                .velocity = gathered(s.velocity, sphere),
+                                .spin = {},
+                                .normal = {of_contacts([&](int k) { return plane(k).normal.x; }),
+                                           of_contacts([&](int k) { return plane(k).normal.y; }),
+                                           of_contacts([&](int k) { return plane(k).normal.z; })},
+                                .overlap = of_contacts([&](int k) { return contacts[k].overlap; })};
+    meeting.reduced_radius = meeting.position.w;
+    if constexpr (Law::has_friction) meeting.spin = triple(gathered(s.spin, sphere));
     const auto parameters = gathered_parameters<Law>([&](int k) -> const PairParameters& {
       return context.table(s.material[sphere(k)], plane(k).material);
     });
-    auto memory = memory_.lanes(slot);
-    ContactLoss<Lanes> loss;
-    const ContactLoad<Lanes> load = Law::evaluate(touch, parameters, context.step, memory, loss);
-    memory_.store_lanes(slot, active, memory);
+    const ContactLoad<Lanes> load =
+        this->loads_of_four(touch_of<Law>(meeting), parameters, context.step, slot, active, work);
 
     scatter(s.force, sphere, active, load.force);
-    if constexpr (Law::has_friction) {
-      Triple<Lanes> torque = arm * cross(load.force, touch.normal);
-      if constexpr (Law::has_rolling) torque = torque + load.rolling_torque;
-      scatter(s.torque, sphere, active, torque);
-    }
-    if constexpr (Law::has_ledger)
-      for (int k = 0; k < active; ++k) work += {.damping = loss.damping[k], .friction = loss.friction[k]};
+    if constexpr (Law::has_friction) scatter(s.torque, sphere, active, torque_of<Law>(meeting, load));
   }
 };
 

@@ -6,7 +6,49 @@
 
 namespace talus::dem {
 
-/// Where a sphere meets something rigid: a plane, a wire, a triangle.
+/// A sphere that meets something rigid, or four of them.
+template <class Real>
+struct RigidMeeting {
+  Quad<Real> position, velocity;    ///< of the sphere; w: radius, mass
+  Triple<Real> spin;                ///< rad/s; of the sphere; unused without friction
+  Triple<Real> normal;              ///< unit vector towards the sphere's centre
+  Real overlap{};                   ///< m; > 0 touching
+  Real reduced_radius{};            ///< m; the sphere's own, less where a wire is thin
+  Triple<Real> partner_velocity{};  ///< m/s; of the contact point on the partner
+
+  /// m; from the sphere's centre to the contact point.
+  TALUS_INLINE Real arm() const noexcept { return position.w - overlap; }
+};
+
+/// The partner is rigid in the law: m* = m, and the contact point lies on its surface.
+template <class Law, class Real>
+TALUS_INLINE Touch<Real> touch_of(const RigidMeeting<Real>& at) noexcept {
+  Touch<Real> touch{};
+  touch.normal = at.normal;
+  touch.overlap = at.overlap;
+  touch.velocity = triple(at.velocity) - at.partner_velocity;
+  touch.reduced_radius = at.reduced_radius;
+  touch.reduced_mass = at.velocity.w;
+  if constexpr (Law::has_friction) {
+    touch.spin = at.spin;
+    touch.velocity = touch.velocity - at.arm() * cross(at.spin, at.normal);
+  }
+  if constexpr (Law::has_ledger) touch.travelled = touch.velocity;
+  if constexpr (Law::has_rolling) touch.reduced_inertia = 1.4 * at.velocity.w * at.position.w * at.position.w;
+  return touch;
+}
+
+/// N m; on the sphere.
+template <class Law, class Real>
+TALUS_INLINE Triple<Real> torque_of(const RigidMeeting<Real>& at, const ContactLoad<Real>& load) noexcept {
+  const Triple<Real> torque = at.arm() * cross(load.force, at.normal);
+  if constexpr (Law::has_rolling)
+    return torque + load.rolling_torque;
+  else
+    return torque;
+}
+
+/// Where a sphere meets a wire or a triangle.
 struct RigidTouch {
   Index sphere = 0;
   Triple<double> normal;            ///< unit vector towards the sphere's centre
@@ -18,6 +60,19 @@ struct RigidTouch {
   const PairParameters* parameters = nullptr;
 };
 
+template <class Law>
+RigidMeeting<double> meeting_of(const Spheres& spheres, const RigidTouch& at) noexcept {
+  RigidMeeting<double> meeting{.position = spheres.position[at.sphere],
+                               .velocity = spheres.velocity[at.sphere],
+                               .spin = {},
+                               .normal = at.normal,
+                               .overlap = at.overlap,
+                               .reduced_radius = at.reduced_radius,
+                               .partner_velocity = at.partner_velocity};
+  if constexpr (Law::has_friction) meeting.spin = triple<double>(spheres.spin[at.sphere]);
+  return meeting;
+}
+
 /// m; from the sphere's centre to the contact point.
 inline double arm_of(const Spheres& spheres, const RigidTouch& at) noexcept {
   return spheres.position[at.sphere].w - at.overlap;
@@ -26,30 +81,17 @@ inline double arm_of(const Spheres& spheres, const RigidTouch& at) noexcept {
 /// m/s; of the sphere over the partner at the contact point, half a step before the forces' time.
 template <class Law>
 Triple<double> relative_velocity(const Spheres& spheres, const RigidTouch& at) noexcept {
-  Triple<double> velocity = triple<double>(spheres.velocity[at.sphere]) - at.partner_velocity;
-  if constexpr (Law::has_friction)
-    velocity = velocity - arm_of(spheres, at) * cross(triple<double>(spheres.spin[at.sphere]), at.normal);
-  return velocity;
+  return touch_of<Law>(meeting_of<Law>(spheres, at)).velocity;
 }
 
-/// Adds the contact's load to the sphere. The partner is rigid in the law: m* = m, and the contact point lies
-/// on its surface.
+/// Adds the contact's load to the sphere.
 /// @return the force on the sphere, N
 template <class Law>
 Triple<double> evaluate_rigid_contact(Spheres& spheres, const RigidTouch& at, double step,
                                       typename Law::StoredMemory& stored, ContactWork& work) noexcept {
-  const Row &p = spheres.position[at.sphere], &v = spheres.velocity[at.sphere];
-  Touch<double> touch{.normal = at.normal,
-                      .overlap = at.overlap,
-                      .velocity = relative_velocity<Law>(spheres, at),
-                      .travelled = {},
-                      .spin = {},
-                      .reduced_radius = at.reduced_radius,
-                      .reduced_mass = v.w};
-  if constexpr (Law::has_friction) touch.spin = triple<double>(spheres.spin[at.sphere]);
-  if constexpr (Law::has_ledger) touch.travelled = touch.velocity;
+  const RigidMeeting<double> meeting = meeting_of<Law>(spheres, at);
+  Touch<double> touch = touch_of<Law>(meeting);
   touch.velocity = touch.velocity + at.velocity_gain;
-  if constexpr (Law::has_rolling) touch.reduced_inertia = 1.4 * v.w * p.w * p.w;
 
   typename Law::template Memory<double> memory;
   for (int k = 0; k < Law::memory_rows; ++k) memory[k] = stored[k];
@@ -60,11 +102,7 @@ Triple<double> evaluate_rigid_contact(Spheres& spheres, const RigidTouch& at, do
   for (int k = 0; k < Law::memory_rows; ++k) stored[k] = Row{memory[k]};
 
   add(spheres.force[at.sphere], load.force);
-  if constexpr (Law::has_friction) {
-    Triple<double> torque = arm_of(spheres, at) * cross(load.force, at.normal);
-    if constexpr (Law::has_rolling) torque = torque + load.rolling_torque;
-    add(spheres.torque[at.sphere], torque);
-  }
+  if constexpr (Law::has_friction) add(spheres.torque[at.sphere], torque_of<Law>(meeting, load));
   if constexpr (Law::has_ledger) work += {.damping = loss.damping, .friction = loss.friction};
   return load.force;
 }

@@ -8,7 +8,8 @@
 #include "tests/verification/effects/lean_particles.hpp"
 
 /// count_particles whole|lean SCENE STEPS: takes steps of a scene with the whole solver, or with one that
-/// knows nothing but spheres in contact, with wires where the scene has some. Prints the bytes of heap that the solver takes.
+/// knows nothing but spheres in contact, with wires where the scene has some. Prints the bytes of heap that
+/// the solver takes.
 namespace {
 
 using namespace talus;

@@ -18,21 +18,27 @@ LeanParticles::LeanParticles(const ParticleModel& model)
 
 void LeanParticles::step() {
   find_neighbours();
-  const ContactStage stage = contact_stage();
-  MotionSummary motion;
-  sweep_blocks(
-      {pair_list_.block_count(), 1}, [&](Index block) { spheres_.clear_loads(pair_list_.places(block)); },
-      [&](Index block) { contacts_.between_spheres(stage, block); },
-      [&](Index block) {
-        motion +=
-            kick_and_drift(spheres_, pair_list_.places(block), {.gravity = {}, .step = step_, .kick = step_});
-      });
-  watch(motion);
+  sweep([this](Index block) { move(block); });
+  watch_motion();
 }
 
-void LeanParticles::watch(const MotionSummary& motion) {
-  if (!motion.finite) throw std::runtime_error("velocities overflow");
-  approached_ += 2 * motion.largest_speed * step_;
+template <class Finish>
+void LeanParticles::sweep(const Finish& finish) {
+  const ContactStage stage = contact_stage();
+  sweep_blocks(
+      {pair_list_.block_count(), 1}, [&](Index block) { spheres_.clear_loads(pair_list_.places(block)); },
+      [&](Index block) { contacts_.between_spheres(stage, block); }, finish);
+}
+
+void LeanParticles::move(Index block) {
+  motion_ +=
+      kick_and_drift(spheres_, pair_list_.places(block), {.gravity = {}, .step = step_, .kick = step_});
+}
+
+void LeanParticles::watch_motion() {
+  if (!motion_.finite) throw std::runtime_error("velocities overflow");
+  approached_ += 2 * motion_.largest_speed * step_;
+  motion_ = {};
 }
 
 ContactStage LeanParticles::contact_stage() {
@@ -85,16 +91,10 @@ LeanParticlesAndWires::LeanParticlesAndWires(const ParticleModel& model) : LeanP
 
 void LeanParticlesAndWires::step() {
   find_neighbours();
-  const ContactStage stage = contact_stage();
-  sweep_blocks(
-      {pair_list_.block_count(), 1}, [&](Index block) { spheres_.clear_loads(pair_list_.places(block)); },
-      [&](Index block) { contacts_.between_spheres(stage, block); }, [](Index) {});
-  contacts_.with_boundary(stage);
-  MotionSummary motion;
-  for (Index block = 0; block < pair_list_.block_count(); ++block)
-    motion +=
-        kick_and_drift(spheres_, pair_list_.places(block), {.gravity = {}, .step = step_, .kick = step_});
-  watch(motion);
+  sweep([](Index) {});
+  contacts_.with_boundary(contact_stage());
+  for (Index block = 0; block < pair_list_.block_count(); ++block) move(block);
+  watch_motion();
 }
 
 void LeanParticlesAndWires::find_neighbours() {

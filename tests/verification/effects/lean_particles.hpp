@@ -17,9 +17,13 @@ class LeanParticles : public Stepper {
 
  protected:
   dem::ContactStage contact_stage();
-  void find_neighbours();
+  virtual void find_neighbours();
+  /// Loads between spheres; finish(block) follows when a block has all of its own.
+  template <class Finish>
+  void sweep(const Finish& finish);
+  void move(dem::Index block);
+  void watch_motion();
   double largest_approach() const noexcept;
-  void watch(const dem::MotionSummary& motion);
 
   dem::Spheres spheres_;
   dem::PairTable pairs_;
@@ -32,6 +36,7 @@ class LeanParticles : public Stepper {
   dem::ContactModel<dem::ContactLaw<dem::Hertz, dem::NoTerm, dem::NoTerm, dem::NoTerm>> contacts_;
   std::vector<dem::Index> place_;
   std::vector<dem::Row> listed_position_;
+  dem::MotionSummary motion_;
   bool listed_ = false;
 };
 
@@ -42,7 +47,7 @@ class LeanParticlesAndWires final : public LeanParticles {
   void step() override;
 
  private:
-  void find_neighbours();
+  void find_neighbours() override;
 };
 
 }  // namespace talus::test
