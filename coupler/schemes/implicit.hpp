@@ -59,7 +59,7 @@ class Implicit {
     if (!outcome.verdict.converged() && convergence_.fail_otherwise)
       fail_not_converged(window, outcome.iterations, outcome.verdict);
     exchange.accept_window();
-    count(window, outcome);
+    count(window, outcome, exchange.touching());
     return true;
   }
 
@@ -99,8 +99,12 @@ class Implicit {
     }
   }
 
-  void count(const Window& window, const Outcome& outcome) {
+  void count(const Window& window, const Outcome& outcome, bool in_contact) {
     ++tally_.windows;
+    if (in_contact) {
+      ++tally_.in_contact;
+      tally_.most_in_contact = std::max<std::int64_t>(tally_.most_in_contact, outcome.iterations);
+    }
     tally_.most = std::max<std::int64_t>(tally_.most, outcome.iterations);
     tally_.most_halvings = std::max(tally_.most_halvings, window.halvings);
     if (!outcome.verdict.converged()) ++tally_.not_converged;
