@@ -45,6 +45,7 @@ class ChannelParticipant final : public Participant {
   std::span<double> table(std::size_t table) override { return output_arrays_.table(outputs(), table); }
   double& table_rows(std::size_t table) override { return output_arrays_.table_rows(outputs(), table); }
   void tell_force_evaluations(std::int64_t since_start) override { channel_.force_evaluations = since_start; }
+  void book_work(double of_this_window) override;
 
  private:
   enum class Stage { joined, surface_known, declared, idle, answering, finished };
@@ -62,6 +63,7 @@ class ChannelParticipant final : public Participant {
   void meter_before();
   void meter_after();
   bool is_metered() const;
+  void refuse_no_numbers();
   void begin_metering();
   std::span<double> array(transport::ArrayName name) const { return arrays_[static_cast<std::size_t>(name)]; }
   std::span<double> outputs() const;

@@ -5,14 +5,18 @@
 #include <fstream>
 
 #include "core/program/log.hpp"
+#include "core/steps.hpp"
 #include "coupler/channel_participant.hpp"
 #include "coupler/transport/segment.hpp"
 
 namespace talus::coupler {
 
-bool Declaration::takes_several_steps(double window_length) const {
-  constexpr double round_off = 1e-9;
-  return step > 0 && step < window_length * (1 - round_off);
+std::int64_t Declaration::steps_in(double window_length) const {
+  return step > 0 ? core::steps_in(window_length, step) : 1;
+}
+
+double Declaration::force_shift(double window_length) const {
+  return force_use == ForceUse::load ? 0 : 0.5 * window_length / static_cast<double>(steps_in(window_length));
 }
 
 std::unique_ptr<Participant> Participant::join(const JoinOptions& options) {

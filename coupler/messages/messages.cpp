@@ -50,6 +50,12 @@ auto decoded(const char* what, Decode&& decode) {
   }
 }
 
+ForceUse force_use_from(int number) {
+  if (number != static_cast<int>(ForceUse::kicks) && number != static_cast<int>(ForceUse::load))
+    throw std::out_of_range("unknown use of forces");
+  return static_cast<ForceUse>(number);
+}
+
 json to_json(const mesh::SurfacePart& part) {
   return {{"name", part.name},
           {"material", part.material},
@@ -197,6 +203,7 @@ Bytes encode(const Declaration& declaration) {
                {"free_velocity", declaration.free_velocity},
                {"light_boundary", declaration.light_boundary},
                {"checkpoints", declaration.checkpoints},
+               {"force_use", static_cast<int>(declaration.force_use)},
                {"limits", limits},
                {"effects", effects},
                {"outputs", to_json(declaration.outputs)}});
@@ -211,6 +218,7 @@ Declaration decode_declaration(ByteView bytes) {
                             .free_velocity = j.at("free_velocity"),
                             .light_boundary = j.at("light_boundary"),
                             .checkpoints = j.at("checkpoints"),
+                            .force_use = force_use_from(j.at("force_use").get<int>()),
                             .limits = {},
                             .effects = {},
                             .outputs = outputs_from(j.at("outputs"))};

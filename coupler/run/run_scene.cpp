@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
-#include <numeric>
 
 #include "core/output/result_writer.hpp"
 #include "core/program/log.hpp"
@@ -129,8 +129,15 @@ void add_tally(nlohmann::json& summary, const Scheme& scheme, double window_leng
   if constexpr (requires { scheme.tally(); }) add_iterations(summary, scheme.tally(), window_length);
 }
 
-double mean_of(const std::vector<double>& values) {
-  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+/// Of the nodes that forces move; 1 kg where none are, and nothing depends on it.
+double mean_mass(const std::vector<double>& masses) {
+  double sum = 0, count = 0;
+  for (const double mass : masses) {
+    if (!(mass > 0) || !std::isfinite(mass)) continue;
+    sum += mass;
+    ++count;
+  }
+  return count > 0 ? sum / count : 1;
 }
 
 template <class Scheme>
@@ -156,7 +163,7 @@ RunStatus compute_coupled(Session& session, Assembled& parts, Scheme& scheme, Co
 RunStatus compute(PreparedRun& run, Assembled& parts, Course& course, nlohmann::json& summary) {
   RunStatus status{};
   if (parts.exchange) {
-    const SchemeFacts facts{.node_mass = mean_of(run.interface->boundary_masses),
+    const SchemeFacts facts{.node_mass = mean_mass(run.interface->boundary_masses),
                             .most_halvings = run.scene.most_halvings()};
     std::visit(SchemeChoice(*parts.exchange, facts,
                             [&](auto& scheme) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -56,8 +57,10 @@ class Implicit {
       ++tally_.halved;
       return false;
     }
-    if (!outcome.verdict.converged() && convergence_.fail_otherwise)
+    const bool may_go_on = !convergence_.fail_otherwise && std::isfinite(outcome.verdict.ratio);
+    if (!outcome.verdict.converged() && !may_go_on)
       fail_not_converged(window, outcome.iterations, outcome.verdict);
+    if (!outcome.verdict.converged()) acceleration_.forget();  // what was learnt in it misleads
     exchange.accept_window();
     count(window, outcome, exchange.touching());
     return true;
@@ -78,6 +81,7 @@ class Implicit {
       outcome.verdict = convergence_.judge(unknown_.changes(window));
       ++outcome.iterations;
       if (outcome.verdict.converged() || outcome.iterations == convergence_.most_iterations) return outcome;
+      if (!std::isfinite(outcome.verdict.ratio)) return outcome;  // no iteration leads back from there
       least = std::min(least, outcome.verdict.ratio);
       if (may_be_halved(window) && outcome.verdict.ratio > hopeless * least) return outcome;
       correct(exchange);
@@ -96,6 +100,7 @@ class Implicit {
       // Without forces the sides do not hear of each other: what they made is the fixed point, unless they
       // touch there.
       std::copy(unknown_.made().begin(), unknown_.made().end(), unknown_.x().begin());
+      acceleration_.step_aside();
     }
   }
 

@@ -41,6 +41,10 @@ class Peer {
   /// Done on this side's surface since time 0, J; the coupler's to change between an answer and the next
   /// command.
   double& work() const { return channel_.work; }
+  /// J; of the window computed last, from the peer's own ledger; nothing where it keeps none.
+  std::optional<double> window_work() const {
+    return channel_.books_work != 0 ? std::optional(channel_.window_work) : std::nullopt;
+  }
   /// Windows it was asked to compute since the start, those taken back included, and how often it evaluated
   /// its forces for them (0 where it does not tell).
   std::int64_t calls() const { return calls_; }

@@ -162,6 +162,7 @@ void Session::post(Peer& peer, const Command& command) {
   record.time = command.time;
   record.length = command.length;
   record.regular_length = command.regular_length;
+  record.force_shift = command.force_shift;
   std::memcpy(record.path.data(), command.path.c_str(), command.path.size() + 1);
   window_ = command.window;
   action_ = command.action;

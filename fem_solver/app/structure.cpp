@@ -125,6 +125,7 @@ Structure::Structure(const StructuralScene& scene)
       assembly_(model_),
       bounds_(bounds_of(scene.structure, assembly_)),
       step_(chosen_step(scene, bounds_)),
+      implicit_(std::holds_alternative<ImplicitScene>(scene.structure.method)),
       output_scene_(scene.output) {
   check_step(scene.structure);
   if (scene.structure.mass_scaling) core::log_warning(description(added_mass_));
