@@ -27,7 +27,8 @@ struct CoupledScene {
   std::optional<InterfaceScene> interface;
   std::optional<SolverScene> structure, particles;
 
-  double window() const { return coupling.window.value_or(time.step.value_or(0)); }  ///< s; the regular one
+  /// s; the regular one. 0 where the scene names none, as one with a single side may: that side's step then is the window.
+  double window() const { return coupling.window.value_or(time.step.value_or(0)); }
   /// In regular windows; 1 where windows do not grow.
   std::int64_t longest_window() const;
   /// How often a window that does not converge may be cut in half.
