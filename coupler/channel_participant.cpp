@@ -8,6 +8,7 @@
 
 #include "core/errors.hpp"
 #include "coupler/messages/messages.hpp"
+#include "coupler/messages/validate.hpp"
 #include "coupler/transport/mailbox.hpp"
 #include "coupler/transport/signal.hpp"
 
@@ -36,6 +37,16 @@ bool have_one_set(const Control& control) {
   };
   const ArraySlot structure = force_of(Role::structure), particles = force_of(Role::particles);
   return structure.count > 0 && structure.count == particles.count && structure.offset == particles.offset;
+}
+
+/// What this side is about to say. @throws UsageError naming the call
+template <class Message>
+void check_own(const Message& message, const char* call) {
+  try {
+    validate(message);
+  } catch (const std::invalid_argument& error) {
+    throw core::UsageError(fmt::format("{}: {}", call, error.what()));
+  }
 }
 
 const char* name_of(ArrayName name) {
@@ -161,9 +172,10 @@ void ChannelParticipant::publish_surface(const mesh::Surface& surface, std::span
     throw core::UsageError(
         fmt::format("publish_surface(): {} masses for {} nodes", node_masses.size(), surface.node_count()));
   }
+  const PublishedSurface published{surface, {node_masses.begin(), node_masses.end()}};
+  check_own(published, "publish_surface()");
   waited_for_ = "its surface to be taken";
-  send(channel_, Side::participant, MessageKind::surface,
-       encode({surface, {node_masses.begin(), node_masses.end()}}),
+  send(channel_, Side::participant, MessageKind::surface, encode(published),
        [this](double seconds) { look_around(seconds); });
   surface_nodes_ = node_masses.size();
   stage_ = Stage::surface_known;
@@ -184,6 +196,7 @@ mesh::Surface ChannelParticipant::receive_surface(std::vector<double>& node_mass
 
 void ChannelParticipant::declare(const Declaration& declaration) {
   expect(Stage::surface_known, "declare()");
+  check_own(declaration, "declare()");
   waited_for_ = "its declaration to be taken";
   send(channel_, Side::participant, MessageKind::declaration, encode(declaration),
        [this](double seconds) { look_around(seconds); });

@@ -17,6 +17,7 @@
 #include "core/output/peaks.hpp"
 #include "core/output/result_tables.hpp"
 #include "core/output/table.hpp"
+#include "core/program/log.hpp"
 
 namespace talus::core {
 namespace {
@@ -83,6 +84,7 @@ struct ResultWriter::Content {
   ResultTables tables;
   std::optional<FieldFiles> fields = {};
   LedgerBalance balance;
+  EnergyGuard guard;
   Peaks peaks = {};
   nlohmann::json extra = nlohmann::json::object();
 
@@ -101,7 +103,8 @@ struct ResultWriter::Content {
         probe_file(o.folder / "probes.csv", columns(description.probes)),
         energy_file(o.folder / "energy.csv", columns(description.ledger, {"error_J", "error_relative"})),
         tables(o.folder, sources),
-        balance(description.ledger) {
+        balance(description.ledger),
+        guard(o.energy_error, balance) {
     if (o.frame_capacity > 0) fields.emplace(o.folder, description.groups, o.frame_capacity);
     probe_row.resize(1 + description.probes.size());
     energy_row.resize(1 + description.ledger.size());
@@ -139,6 +142,11 @@ struct ResultWriter::Content {
       probe += probes;
       line += lines;
     }
+  }
+
+  void warn(const std::string& warning) {
+    log_warning(warning);
+    extra["warnings"].push_back(warning);
   }
 
   /// The row that stands in probe_row and, without its balance, in energy_row.
@@ -199,6 +207,7 @@ struct ResultWriter::Content {
     json["energy"]["error_relative"] = balance.last().error_relative;
     json["energy"]["largest_error_J"] = balance.largest().error;
     json["energy"]["largest_error_relative"] = balance.largest().error_relative;
+    json["energy"]["impact_J"] = balance.scale();
     json["tables"] = tables.summary();
     add_columns(json);
     return json;
@@ -237,6 +246,7 @@ void ResultWriter::write_row(double time) {
   c.append_row(time);
   c.tables.update(time);
   if (!c.first_time) c.first_time = time;
+  for (const std::string& warning : c.guard.look(time)) c.warn(warning);
   if (Clock::now() - c.summary_written > summary_pause) c.write_summary(RunStatus::running, {});
 }
 
@@ -283,6 +293,7 @@ nlohmann::json& ResultWriter::summary() {
 }
 
 void ResultWriter::finish(RunStatus status, const std::string& message) {
+  if (status == RunStatus::finished) content_->guard.judge(content_->last_time.value_or(0));
   if (content_->fields) content_->fields->index.write();
   content_->write_summary(status, message);
 }

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/errors.hpp"
+#include "coupler/messages/validate.hpp"
 
 namespace talus::coupler {
 namespace {
@@ -39,21 +40,18 @@ json parse(ByteView bytes) {
 /// Runs a decoder; a message that does not hold what it should is the sender's fault, whatever exception says
 /// so.
 template <class Decode>
-auto decoded(const char* what, Decode&& decode) {
+auto decoded(const char* what, const std::string& sender, Decode&& decode) {
+  const auto refuse = [&](const char* why, const std::exception& error) {
+    return core::TransportError(
+        {.peer = sender, .waited_for = what, .reason = std::string(why) + " (" + error.what() + ")"});
+  };
   try {
     return decode();
+  } catch (const std::invalid_argument& error) {
+    throw refuse("said what cannot be", error);
   } catch (const std::exception& error) {
-    throw core::TransportError(
-        {.peer = "a participant",
-         .waited_for = what,
-         .reason = std::string("sent a message that cannot be read (") + error.what() + ")"});
+    throw refuse("sent a message that cannot be read", error);
   }
-}
-
-ForceUse force_use_from(int number) {
-  if (number != static_cast<int>(ForceUse::kicks) && number != static_cast<int>(ForceUse::load))
-    throw std::out_of_range("unknown use of forces");
-  return static_cast<ForceUse>(number);
 }
 
 json to_json(const mesh::SurfacePart& part) {
@@ -167,8 +165,8 @@ Bytes encode(const PublishedSurface& published) {
                {"node_masses", binary(published.node_masses)}});
 }
 
-PublishedSurface decode_surface(ByteView bytes) {
-  return decoded("a surface", [&] {
+PublishedSurface decode_surface(ByteView bytes, const std::string& sender) {
+  return decoded("a surface", sender, [&] {
     const json j = parse(bytes);
     PublishedSurface published;
     published.surface.positions = values_of<double>(j.at("positions"));
@@ -176,6 +174,7 @@ PublishedSurface decode_surface(ByteView bytes) {
     published.surface.triangles = values_of<std::array<mesh::Index, 3>>(j.at("triangles"));
     for (const auto& part : j.at("parts")) published.surface.parts.push_back(part_from(part));
     published.node_masses = values_of<double>(j.at("node_masses"));
+    validate(published);
     return published;
   });
 }
@@ -203,8 +202,8 @@ Bytes encode(const Declaration& declaration) {
                {"outputs", to_json(declaration.outputs)}});
 }
 
-Declaration decode_declaration(ByteView bytes) {
-  return decoded("a declaration", [&] {
+Declaration decode_declaration(ByteView bytes, const std::string& sender) {
+  return decoded("a declaration", sender, [&] {
     const json j = parse(bytes);
     Declaration declaration{.program = j.at("program"),
                             .step = j.at("step"),
@@ -212,7 +211,7 @@ Declaration decode_declaration(ByteView bytes) {
                             .free_velocity = j.at("free_velocity"),
                             .light_boundary = j.at("light_boundary"),
                             .checkpoints = j.at("checkpoints"),
-                            .force_use = force_use_from(j.at("force_use").get<int>()),
+                            .force_use = static_cast<ForceUse>(j.at("force_use").get<std::uint32_t>()),
                             .limits = {},
                             .effects = {},
                             .outputs = outputs_from(j.at("outputs"))};
@@ -226,6 +225,7 @@ Declaration decode_declaration(ByteView bytes) {
       declaration.effects.push_back(
           {.name = effect.at("name"), .present = effect.at("present"), .reason = effect.at("reason")});
     }
+    validate(declaration);
     return declaration;
   });
 }
@@ -241,7 +241,7 @@ Bytes encode_failure(const std::exception& error) {
 }
 
 void throw_failure(ByteView bytes, const FailureContext& context) {
-  const json j = decoded("a failure", [&] { return parse(bytes); });
+  const json j = decoded("a failure", context.peer, [&] { return parse(bytes); });
   if (j.contains("complaints")) {
     std::vector<core::Complaint> complaints;
     for (const auto& c : j["complaints"]) {

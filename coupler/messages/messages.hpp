@@ -26,9 +26,10 @@ Bytes encode(const Declaration& declaration);
 /// The kind of the error and everything needed to make the same error again.
 Bytes encode_failure(const std::exception& error);
 
-/// @throws TransportError where the bytes are not such a message
-PublishedSurface decode_surface(ByteView bytes);
-Declaration decode_declaration(ByteView bytes);
+/// @param sender for the error's text
+/// @throws TransportError where the bytes are not such a message, or what it says makes no sense (validate.hpp)
+PublishedSurface decode_surface(ByteView bytes, const std::string& sender = "a participant");
+Declaration decode_declaration(ByteView bytes, const std::string& sender = "a participant");
 
 /// Who failed and when, for errors whose own text does not say it.
 struct FailureContext {

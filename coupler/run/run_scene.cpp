@@ -9,6 +9,7 @@
 #include "core/output/result_writer.hpp"
 #include "core/program/log.hpp"
 #include "core/program/stop.hpp"
+#include "core/steps.hpp"
 #include "coupler/run/checkpoints.hpp"
 #include "coupler/run/choose_scheme.hpp"
 #include "coupler/run/prepared_run.hpp"
@@ -120,7 +121,8 @@ core::ResultWriter::Options result_options(const PreparedRun& run, const RunRequ
           .program = "talus " + core::version(),
           .scene = request.scene,
           .scene_hash = run.file.hash(),
-          .frame_capacity = plan.frames ? plan.frames->count(plan.span.windows()) : 0};
+          .frame_capacity = plan.frames ? plan.frames->count(plan.span.windows()) : 0,
+          .energy_error = run.scene.output.energy_error()};
 }
 
 /// What a strong scheme's iterations cost goes into the summary; the others have none.
@@ -195,6 +197,9 @@ core::ExitCode run_prepared(PreparedRun& run, const RunRequest& request) {
   core::ResultWriter results(result_options(run, request, plan), parts.sources);
   core::open_log_file(results.folder() / "log.txt");
   for (const auto& warning : warnings_of(run.limits)) core::log_warning(warning);
+  if (const auto words = core::words_about_length("window", run.scene.time.end, run.scene.named_window());
+      !words.empty())
+    core::log_info(words);
   add_facts(results.summary(), run);
   if (restart)
     continue_result(results, request, static_cast<double>(restart->window()) * plan.span.window_length);
