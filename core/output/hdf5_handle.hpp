@@ -33,7 +33,7 @@ class Hdf5Handle {
  public:
   using Close = herr_t (*)(hid_t);
   /// @throws MachineError where the library gave none
-  Hdf5Handle(hid_t id, Close close, const std::string& what) : id_(id), close_(close) {
+  Hdf5Handle(hid_t id, Close closing, const std::string& what) : id_(id), close_(closing) {
     if (id < 0) throw MachineError("the HDF5 library cannot open or make '" + what + "'");
   }
   ~Hdf5Handle() {

@@ -211,7 +211,7 @@ core::ExitCode run_prepared(PreparedRun& run, const RunRequest& request) {
 }  // namespace
 
 core::ExitCode run_scene(const RunRequest& request) {
-  core::watch_stop_signals();
+  core::watch_stop_signals("at the end of this window");
   try {
     PreparedRun run =
         prepare({.scene = request.scene, .threads = request.options.threads, .by_hand = request.by_hand});

@@ -154,7 +154,7 @@ int remove_stale_segments() {
   for (const auto& entry : std::filesystem::directory_iterator("/dev/shm", error)) {
     const std::string name = entry.path().filename();
     const ProcessIdentity owner = owner_in(name);
-    if (owner.pid > 0 && identify(owner.pid) != owner && ipc::shared_memory_object::remove(name.c_str()))
+    if (owner.pid > 0 && !ProcessHandle(owner).alive() && ipc::shared_memory_object::remove(name.c_str()))
       ++removed;
   }
   return removed;
