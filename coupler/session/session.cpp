@@ -20,6 +20,23 @@ std::string in_brackets(const std::string& condition) {
   return condition.empty() ? "" : " (" + condition + ")";
 }
 
+/// ". The outputs of the structure take 61.2 MB, its interface 0.3 MB": for who wonders what is so large.
+std::string what_needs_room(const std::vector<std::unique_ptr<Peer>>& peers) {
+  std::string text;
+  for (const auto& peer : peers) {
+    const auto& slots = peer->channel().arrays;
+    const std::uint64_t outputs = slots[static_cast<std::size_t>(ArrayName::outputs)].count;
+    std::uint64_t all = 0;
+    for (const ArraySlot& slot : slots) all += slot.count;
+    const auto megabytes = [](std::uint64_t values) {
+      return 1e-6 * sizeof(double) * static_cast<double>(values);
+    };
+    text += fmt::format(". The outputs of the {} (tables, fields) take {:.3g} MB, its interface {:.3g} MB",
+                        name_of(peer->role()), megabytes(outputs), megabytes(all - outputs));
+  }
+  return text;
+}
+
 }  // namespace
 
 Session::Session(std::shared_ptr<Segment> segment, SessionOptions options)
@@ -154,7 +171,11 @@ void Session::create_arrays(ArraySets sets) {
     }
   }
   phase_ = Phase::running;
-  segment_->create_data(bytes);
+  try {
+    segment_->create_data(bytes);
+  } catch (const core::MachineError& error) {
+    throw core::MachineError(error.what() + what_needs_room(peers_));
+  }
   control_.header.data_bytes = bytes;
   for (const auto& peer : peers_) peer->set_arrays(segment_->data());
 }

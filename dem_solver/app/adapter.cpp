@@ -77,7 +77,8 @@ class Server {
       case Action::report:
         return coupler::report(participant_, command, run_.output);
       case Action::write_checkpoint:
-        return write_checkpoint(run_.solver, command.path);
+        return coupler::write_checkpoint(
+            command, [&](const std::filesystem::path& path) { write_checkpoint(run_.solver, path); });
       case Action::read_checkpoint:
         return read_checkpoint(run_.solver, command.path);
       case Action::finish:
