@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,6 +14,7 @@ namespace talus::coupler::launch {
 struct Program {
   std::string name;
   std::vector<std::string> command;  ///< program and arguments
+  std::filesystem::path file = {};   ///< of a program that a scene names: what really runs
 };
 
 /// How a child ended.
