@@ -233,7 +233,7 @@ ResultWriter::ResultWriter(const Options& options, std::vector<const OutputSourc
   try {
     content_ = std::make_unique<Content>(options, std::move(sources), std::move(place));
     content_->write_summary(RunStatus::running, {});
-  } catch (const FileError& error) {
+  } catch (const MachineError& error) {
     content_.reset();
     write_failed_summary(options, error.what());
     throw;

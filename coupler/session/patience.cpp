@@ -7,7 +7,7 @@
 namespace talus::coupler {
 namespace {
 
-constexpr double sampled_from = 1;         // s into a wait
+constexpr double sampled_from = 0.25;      // s into a wait
 constexpr double least_share = 0.05;       // of a core; a process that only looks around uses less
 constexpr double shortest_measured = 0.5;  // s; the kernel counts in ticks of 10 ms
 

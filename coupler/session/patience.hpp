@@ -10,7 +10,7 @@
 namespace talus::coupler {
 
 /// What a process has done since somebody began to wait for it: computing and stuck look the same from
-/// outside, but not in the time it used. Costs nothing in the first second of a wait.
+/// outside, but not in the time it used. Costs nothing in the first quarter of a second of a wait.
 class Patience {
  public:
   /// Called each slice of a wait with the seconds waited so far; fewer than at the last call begin a new one.
