@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <span>
 #include <vector>
 
 #include "core/errors.hpp"
@@ -13,20 +14,28 @@
 namespace talus::core {
 namespace {
 
-constexpr off_t chunk = 1 << 20;  // bytes copied at once
+constexpr std::size_t chunk = 1 << 20, page = 4096;  // bytes read at once, and written or left out
 
 [[noreturn]] void fail() {
   throw MachineError(std::string("a file in memory cannot be read back: ") + std::strerror(errno));
 }
 
-/// Copies the bytes [begin, end).
+bool is_zero(std::span<const std::byte> bytes) {
+  return std::ranges::all_of(bytes, [](std::byte b) { return b == std::byte{0}; });
+}
+
+/// Copies the bytes [begin, end), zeros as holes: the system may hold large pages of which little is written.
 void copy(int from, OutputFile& to, off_t begin, off_t end) {
-  std::vector<std::byte> bytes;
+  std::vector<std::byte> bytes(chunk);
   while (begin < end) {
-    bytes.resize(static_cast<std::size_t>(std::min(chunk, end - begin)));
-    const auto count = ::pread(from, bytes.data(), bytes.size(), begin);
+    const auto wanted = std::min<std::uint64_t>(chunk, static_cast<std::uint64_t>(end - begin));
+    const auto count = ::pread(from, bytes.data(), wanted, begin);
     if (count <= 0) fail();
-    to.write_at(static_cast<std::uint64_t>(begin), std::span(bytes).first(static_cast<std::size_t>(count)));
+    const std::span<const std::byte> read(bytes.data(), static_cast<std::size_t>(count));
+    for (std::size_t done = 0; done < read.size(); done += page) {
+      const auto piece = read.subspan(done, std::min(page, read.size() - done));
+      if (!is_zero(piece)) to.write_at(static_cast<std::uint64_t>(begin) + done, piece);
+    }
     begin += count;
   }
 }

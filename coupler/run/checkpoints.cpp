@@ -24,12 +24,15 @@ constexpr const char *checkpoint = "checkpoint.h5", *checkpoint_before = "checkp
 struct Part {
   Part(const Peer& peer, const fs::path& folder)
       : name(name_of(peer.role())),
-        path(fs::absolute(folder / (std::string("checkpoint_of_") + name + ".part"))) {}
-  ~Part() {
+        path(fs::absolute(folder / (std::string("checkpoint_of_") + name + ".part"))) {
+    remove();  // an older one must not pass for that of a participant which writes none
+  }
+  ~Part() { remove(); }
+  Part(const Part&) = delete;
+  void remove() const {
     std::error_code ignored;
     fs::remove(path, ignored);
   }
-  Part(const Part&) = delete;
 
   std::string name;
   fs::path path;

@@ -1,4 +1,5 @@
 #include <signal.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -141,8 +142,11 @@ TEST_CASE("a program started with nohup goes on when its terminal is closed") {
 }
 
 TEST_CASE("messages reach the screen when log.txt cannot be written any more") {
-  CHECK(exit_of_throwing([] {
-          core::open_log_file("/dev/full");
+  const test::Folder folder("full_log");
+  CHECK(exit_of_throwing([&] {
+          core::open_log_file(folder / "log.txt");
+          const rlimit as_it_is{std::filesystem::file_size(folder / "log.txt"), RLIM_INFINITY};
+          if (::setrlimit(RLIMIT_FSIZE, &as_it_is) != 0) ::_exit(99);  // of this child process
           core::log_error("said to a full disk");
           throw core::ConfigError("the first cause");
         }) == code(ExitCode::config));
