@@ -84,6 +84,11 @@ core::NumericalError::Details no_number(std::span<const double> values, const Ha
           .value = *bad};
 }
 
+bool is_stopped(pid_t pid) {
+  const auto activity = pid > 0 ? activity_of(pid) : std::nullopt;
+  return activity && activity->state == ProcessActivity::State::stopped;
+}
+
 Command command_of(const CommandRecord& record) {
   return {.action = static_cast<Action>(record.action),
           .fields = record.fields != 0,
@@ -110,6 +115,7 @@ ChannelParticipant::ChannelParticipant(std::shared_ptr<Segment> segment, const J
                                   .start = header.coupler_start};
     coupler_ = ProcessHandle(coupler);
     watch_.emplace(coupler, name_of(options.role));
+    signals_.emplace(header.state);
     ask_for_early_turns();
   }
   auto expected = static_cast<std::uint32_t>(ChannelState::awaited);
@@ -161,6 +167,8 @@ void ChannelParticipant::look_around(double seconds_waited) {
     last_heartbeat_ = heartbeat;
     last_heartbeat_at_ = seconds_waited;
   } else if (seconds_waited - last_heartbeat_at_ > options_.timeout) {
+    last_heartbeat_at_ = seconds_waited;
+    if (is_stopped(coupler_.pid())) return;  // by Ctrl-Z: it may go on
     give_up(fmt::format("gave no sign of life for {:g} s", options_.timeout));
   }
 }

@@ -14,7 +14,10 @@
 #include "core/output/csv.hpp"
 #include "core/output/field_index.hpp"
 #include "core/output/field_store.hpp"
+#include "core/output/file.hpp"
+#include "core/output/last_words.hpp"
 #include "core/output/peaks.hpp"
+#include "core/output/reserve.hpp"
 #include "core/output/result_tables.hpp"
 #include "core/output/table.hpp"
 #include "core/program/log.hpp"
@@ -24,11 +27,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr std::chrono::seconds summary_pause{2};  // between rewritings of the summary of a run in progress
-
-const char* name_of(RunStatus status) {
-  static constexpr std::array names{"running", "finished", "interrupted", "failed"};
-  return names[static_cast<std::size_t>(status)];
-}
 
 const char* name_of(LedgerKind kind) {
   static constexpr std::array names{"stored", "dissipated", "supplied", "memo"};
@@ -72,11 +70,19 @@ struct FieldFiles {
   FieldIndex index;
 };
 
+/// The folder of a run, and room in it for the last words.
+struct Place {
+  explicit Place(const ResultWriter::Options& options)
+      : folder(options.folder, options.existing), reserve(options.folder) {}
+  ResultFolder folder;
+  Reserve reserve;
+};
+
 }  // namespace
 
 struct ResultWriter::Content {
   Options options;
-  ResultFolder folder;
+  std::unique_ptr<Place> place;
   std::vector<const OutputSource*> sources;
   OutputDescription description;
   CsvFile probe_file;
@@ -95,9 +101,9 @@ struct ResultWriter::Content {
   std::int64_t rows = 0;
   std::vector<double> probe_row = {}, energy_row = {}, field_values = {};
 
-  Content(const Options& o, std::vector<const OutputSource*> s)
+  Content(const Options& o, std::vector<const OutputSource*> s, std::unique_ptr<Place> p)
       : options(o),
-        folder(o.folder, o.existing),
+        place(std::move(p)),
         sources(std::move(s)),
         description(joined(sources)),
         probe_file(o.folder / "probes.csv", columns(description.probes)),
@@ -191,12 +197,7 @@ struct ResultWriter::Content {
     const double wall = std::chrono::duration<double>(Clock::now() - started).count();
     const double simulated = last_time ? *last_time - *first_time : 0;
     nlohmann::json json = extra;
-    json["status"] = name_of(status);
-    if (!message.empty()) json["message"] = message;
-    json["title"] = options.title;
-    json["scene"] = options.scene.string();
-    json["scene_hash"] = options.scene_hash;
-    json["program"] = options.program;
+    json.update(facts_of(options, status, message));
     json["started_at"] = started_at;
     json["simulated_time_s"] = simulated;
     json["wall_time_s"] = wall;
@@ -223,15 +224,29 @@ struct ResultWriter::Content {
     for (std::size_t i = 0; rows > 0 && i < description.ledger.size(); ++i)
       json["energy"]["last"][description.ledger[i].name] = energy_row[i + 1];
   }
-  void write_summary(RunStatus status, const std::string& message) {
-    replace_file(options.folder / "summary.json", own_summary(status, message).dump(2) + "\n");
+  void write_summary(RunStatus status, const std::string& message, Durability durability = Durability::kill) {
+    replace_file(options.folder / "summary.json", text_of(own_summary(status, message)), durability);
     summary_written = Clock::now();
+  }
+  /// Some file systems say only here that there was no room.
+  void close_files() {
+    probe_file.close();
+    energy_file.close();
+    tables.close();
+    if (fields) fields->store.close();
   }
 };
 
-ResultWriter::ResultWriter(const Options& options, std::vector<const OutputSource*> sources)
-    : content_(std::make_unique<Content>(options, std::move(sources))) {
-  content_->write_summary(RunStatus::running, {});
+ResultWriter::ResultWriter(const Options& options, std::vector<const OutputSource*> sources) {
+  auto place = std::make_unique<Place>(options);
+  try {
+    content_ = std::make_unique<Content>(options, std::move(sources), std::move(place));
+    content_->write_summary(RunStatus::running, {});
+  } catch (const MachineError& error) {
+    content_.reset();
+    write_failed_summary(options, error.what());
+    throw;
+  }
 }
 
 ResultWriter::~ResultWriter() = default;
@@ -280,7 +295,7 @@ void ResultWriter::write_fields(double time) {
 }
 
 const std::filesystem::path& ResultWriter::folder() const {
-  return content_->folder.path();
+  return content_->place->folder.path();
 }
 std::optional<double> ResultWriter::last_row_time() const {
   return content_->last_time;
@@ -293,9 +308,19 @@ nlohmann::json& ResultWriter::summary() {
 }
 
 void ResultWriter::finish(RunStatus status, const std::string& message) {
-  if (status == RunStatus::finished) content_->guard.judge(content_->last_time.value_or(0));
-  if (content_->fields) content_->fields->index.write();
-  content_->write_summary(status, message);
+  auto& c = *content_;
+  if (status == RunStatus::finished) c.guard.judge(c.last_time.value_or(0));
+  c.close_files();
+  if (c.fields) c.fields->index.write();
+  c.place->reserve.release();
+  c.write_summary(status, message, Durability::power_loss);
+}
+
+void ResultWriter::give_up(const std::string& message) noexcept {
+  auto& c = *content_;
+  c.place->reserve.release();
+  write_if_possible([&] { c.write_summary(RunStatus::failed, message, Durability::power_loss); });
+  if (c.fields) write_if_possible([&] { c.fields->index.write(); });
 }
 
 }  // namespace talus::core

@@ -42,7 +42,8 @@ class ResultWriter {
 
   /// Columns and groups of several sources stand side by side, in their order. The sources must outlive the
   /// writer.
-  /// @throws ConfigError (see ResultFolder), UsageError where two columns or groups have the same name
+  /// @throws ConfigError (see ResultFolder), UsageError where two columns or groups have the same name,
+  /// FileError; a summary then says so, if that can be written
   ResultWriter(const Options& options, std::vector<const OutputSource*> sources);
   ~ResultWriter();
 
@@ -63,9 +64,13 @@ class ResultWriter {
   const LedgerBalance& balance() const;
   /// What the caller adds to summary.json: limits, versions, iterations, ... Keys of the writer itself win.
   nlohmann::json& summary();
-  /// Writes the summary for good. Wall time is counted from the writer's construction to this call.
-  /// @throws NumericalError where a run that finished was off by more energy than allowed; finish it as failed
+  /// Writes the summary for good, on the disk when it returns. Wall time is counted from the writer's
+  /// construction to this call. @throws FileError; NumericalError where a run that finished was off by more energy
+  /// than allowed: give it up
   void finish(RunStatus status, const std::string& message = {});
+  /// The same for a run that failed, perhaps because the disk is full: what cannot be written either is only a
+  /// warning, since the first cause is what the user has to hear. Room for the summary was kept from the start.
+  void give_up(const std::string& message) noexcept;
 
  private:
   struct Content;

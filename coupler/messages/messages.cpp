@@ -236,6 +236,8 @@ Bytes encode_failure(const std::exception& error) {
     for (const auto& complaint : config->complaints()) j["complaints"].push_back(to_json(complaint));
   } else if (const auto* numerical = dynamic_cast<const core::NumericalError*>(&error)) {
     j["numerical"] = to_json(numerical->details());
+  } else if (core::exit_code(error) == core::ExitCode::machine) {
+    j["machine"] = true;
   }
   return cbor(j);
 }
@@ -254,6 +256,8 @@ void throw_failure(ByteView bytes, const FailureContext& context) {
     throw core::NumericalError({d.at("what"), d.at("entity"), d.at("step"), d.at("time"),
                                 values_of<double>(d.at("value")).at(0), d.at("last_output_time")});
   }
+  if (j.contains("machine"))
+    throw core::MachineError(context.peer + ": " + j.value("message", std::string("no reason given")));
   throw core::TransportError(
       {.peer = context.peer,
        .waited_for = context.waited_for,

@@ -37,8 +37,8 @@ struct FailureContext {
   std::string waited_for;
   std::int64_t window = -1;
 };
-/// Throws the participant's error in the coupler: ConfigError and NumericalError as they were, anything else
-/// as a TransportError that names the participant.
+/// Throws the participant's error in the coupler: ConfigError and NumericalError as they were, errors of the
+/// machine as MachineError, anything else as a TransportError; the last two name the participant.
 [[noreturn]] void throw_failure(ByteView bytes, const FailureContext& context);
 
 }  // namespace talus::coupler

@@ -112,15 +112,18 @@ core::ExitCode run_standalone(const core::SolverCommand& command) {
   try {
     const core::RunStatus status = advance(run, scene, results, progress);
     summarize(results.summary(), run);
-    results.finish(status);
+    results.finish(status, status == core::RunStatus::interrupted ? core::stop_reason() : "");
     return status == core::RunStatus::finished ? core::ExitCode::success : core::ExitCode::interrupted;
   } catch (const core::NumericalError& error) {
     core::NumericalError::Details details = error.details();
     details.last_output_time = results.last_row_time().value_or(-1);
     const core::NumericalError complete(details);
     summarize(results.summary(), run);
-    results.finish(core::RunStatus::failed, complete.what());
+    results.give_up(complete.what());
     throw complete;
+  } catch (const std::exception& error) {
+    results.give_up(error.what());
+    throw;
   }
 }
 

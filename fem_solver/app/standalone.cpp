@@ -107,10 +107,11 @@ core::ExitCode run_standalone(const core::SolverCommand& command) {
   core::Progress progress(command.run.progress, "steps");
   try {
     const bool finished = run_steps(structure, scene, results, progress);
-    results.finish(finished ? core::RunStatus::finished : core::RunStatus::interrupted);
+    results.finish(finished ? core::RunStatus::finished : core::RunStatus::interrupted,
+                   finished ? "" : core::stop_reason());
     return finished ? core::ExitCode::success : core::ExitCode::interrupted;
   } catch (const std::exception& error) {
-    results.finish(core::RunStatus::failed, error.what());
+    results.give_up(error.what());
     throw;
   }
 }

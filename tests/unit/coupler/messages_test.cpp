@@ -74,6 +74,10 @@ TEST_CASE("errors of a participant are the same errors in the coupler") {
   const core::NumericalError numerical(
       {.what = "x is not finite", .entity = "node 3", .step = 7, .time = 0.1, .value = NAN});
   CHECK_THROWS_WITH(throw_failure(encode_failure(numerical), context), std::string(numerical.what()));
+  const core::FileError full("state.part", "written", ENOSPC);
+  CHECK_THROWS_AS(throw_failure(encode_failure(full), context), core::MachineError);
+  CHECK_THROWS_WITH(throw_failure(encode_failure(full), context),
+                    "structure (x, pid 1): 'state.part' cannot be written: No space left on device");
   CHECK_THROWS_WITH(throw_failure(encode_failure(std::runtime_error("no licence")), context),
                     Contains("structure (x, pid 1) gave up (no licence)") && Contains("window 4"));
 }
