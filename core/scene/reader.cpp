@@ -10,6 +10,7 @@
 #include <sstream>
 #include <tuple>
 
+#include "core/program/log.hpp"
 #include "core/scene/section_reader.hpp"
 #include "core/scene/tree.hpp"
 
@@ -243,8 +244,20 @@ void SceneFile::set(const std::string& key_path, const std::string& value) {
   }
 }
 
+void log_warnings(std::vector<Complaint>& complaints) {
+  std::erase_if(complaints, [](const Complaint& complaint) {
+    if (complaint.warning) log_warning(complaint.text());
+    return complaint.warning;
+  });
+}
+
+bool SceneReader::has_complaints() const {
+  return !std::ranges::all_of(complaints_, &Complaint::warning);
+}
+
 void SceneReader::finish() {
   file_.check_sections(known_, complaints_);
+  log_warnings(complaints_);
   if (complaints_.empty()) return;
   std::stable_sort(complaints_.begin(), complaints_.end(), [](const Complaint& a, const Complaint& b) {
     return std::tie(a.file, a.line, a.column) < std::tie(b.file, b.line, b.column);

@@ -2,10 +2,16 @@
 
 #include <fmt/format.h>
 
+#include "core/scene/plausible.hpp"
+
 namespace talus::core {
 
 void describe(Fields& fields, TimeScene& time) {
-  fields.required("end", time.end, {.unit = "s", .range = positive, .help = "simulated time of the run"});
+  fields.required("end", time.end,
+                  {.unit = "s",
+                   .range = positive,
+                   .help = "simulated time of the run",
+                   .plausible = plausible::duration});
   fields.optional("step", time.step,
                   {.unit = "s",
                    .range = positive,

@@ -69,6 +69,28 @@ TEST_CASE("bad membranes, ropes and brakes get complaints that name the key and 
   check(part(line, "brake: {table: [], mass_per_length: 1}"), "structure.parts.part");
 }
 
+TEST_CASE("stresses, moduli and areas of a lost unit are refused by every element that has them") {
+  const auto check = [](const std::string& element, const std::string& expected) {
+    CHECK_THAT(complaint(part(element.starts_with("membrane") ? sheet : line, element)),
+               Catch::Contains(expected) && Catch::Contains("megapascals are written MPa"));
+  };
+  const std::string size = "area: 1 cm^2, density: 8000, ";
+  check("bar: {" + size + "youngs_modulus: 1770 mPa}", "youngs_modulus: '1770 mPa' is 1.77 Pa");
+  check("cable: {" + size + "youngs_modulus: 100000 mPa}", "youngs_modulus: '100000 mPa' is 100 Pa");
+  check("sliding_cable: {" + section + ", prestress: 1000 mPa}", "prestress: '1000 mPa' is 1 Pa");
+  check("elastic_plastic_cable: {" + section + ", yield_stress: 1770 mPa}", "yield_stress: '1770 mPa'");
+  check(membrane("isotropic: {youngs_modulus: 200 mPa, poissons_ratio: 0.3}"), "youngs_modulus: '200 mPa'");
+  check(membrane("orthotropic: {youngs_modulus_x: 4 GPa, youngs_modulus_y: 1 GPa, shear_modulus: 50 mPa, "
+                 "poissons_ratio_xy: 0.1}"),
+        "shear_modulus: '50 mPa'");
+  CHECK_THAT(complaint(part(line, "cable: {area: 12.6 km^2, density: 8000, youngs_modulus: 100 GPa}")),
+             Catch::Contains("area: '12.6 km^2'") && Catch::Contains("written mm^2"));
+}
+
+TEST_CASE("a structure without mass, and one in other units, are read") {
+  CHECK(complaint(part(line, "bar: {area: 1, density: 1e-6, youngs_modulus: 10}")) == "no complaint");
+}
+
 namespace {
 
 /// A rope of cables along x, and a net whose southern edge, moved off it in z, may run on it.
