@@ -215,7 +215,10 @@ struct ResultWriter::Content {
       json["energy"]["last"][description.ledger[i].name] = energy_row[i + 1];
   }
   void write_summary(RunStatus status, const std::string& message) {
-    replace_file(options.folder / "summary.json", own_summary(status, message).dump(2) + "\n");
+    // A path of the system may hold bytes of any encoding; JSON holds UTF-8.
+    constexpr auto replace = nlohmann::json::error_handler_t::replace;
+    replace_file(options.folder / "summary.json",
+                 own_summary(status, message).dump(2, ' ', false, replace) + "\n");
     summary_written = Clock::now();
   }
 };

@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdint>
-#include <fstream>
 #include <sstream>
 #include <tuple>
 
+#include "core/input_file.hpp"
 #include "core/program/log.hpp"
 #include "core/scene/section_reader.hpp"
 #include "core/scene/tree.hpp"
@@ -33,20 +33,14 @@ namespace {
 
 constexpr std::size_t longest_chain = 16;  // files that extend each other
 
-std::string file_text(const std::filesystem::path& path, const Complaint& if_missing) {
-  std::error_code error;
-  const auto fail = [&](const std::string& message) {
-    Complaint problem = if_missing;
-    problem.message = message;
+std::string file_text(const std::filesystem::path& path, const Complaint& if_unreadable) {
+  try {
+    return text_of_file(path);
+  } catch (const ConfigError& error) {
+    Complaint problem = if_unreadable;
+    problem.message = error.what();
     throw ConfigError(std::vector{problem});
-  };
-  if (!std::filesystem::exists(path, error)) fail("no such file: " + quoted(path.string()));
-  if (std::filesystem::is_directory(path, error)) fail(quoted(path.string()) + " is a folder, not a scene");
-  std::ifstream stream(path, std::ios::binary);
-  std::ostringstream text;
-  if (stream.peek() != std::ifstream::traits_type::eof()) text << stream.rdbuf();
-  if (stream.bad() || (!stream && !stream.eof())) fail("cannot be read: " + quoted(path.string()));
-  return text.str();
+  }
 }
 
 struct LoadedTree {

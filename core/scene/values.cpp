@@ -7,6 +7,7 @@
 #include <optional>
 #include <string_view>
 
+#include "core/input_file.hpp"
 #include "core/units/units.hpp"
 
 namespace talus::core {
@@ -181,9 +182,8 @@ bool read(const SceneNode& node, std::filesystem::path& value, Reading reading) 
   const std::filesystem::path folder =
       node.place.file ? node.place.file->parent_path() : std::filesystem::path();
   const std::filesystem::path path = folder / node.scalar;
-  std::error_code error;
-  if (!std::filesystem::exists(path, error)) {
-    reading.complain(node, fmt::format("no such file: {}", quoted(path.string())));
+  if (const std::string fault = input_file_fault(path); !fault.empty()) {
+    reading.complain(node, fault);
     return false;
   }
   value = path;

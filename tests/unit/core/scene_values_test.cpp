@@ -201,6 +201,8 @@ TEST_CASE("a file named in a scene is found from the folder of the scene that na
   core::SceneReader reader(file, {"section"});
   CHECK(reader.required<Values>("section").mesh == folder / "parts/rock.stl");
   CHECK_NOTHROW(reader.finish());
+  CHECK(error("mesh: /dev/null") == "scene.yaml:1:17: section.mesh: '/dev/null' is a device, not a file");
+  CHECK(error("mesh: /") == "scene.yaml:1:17: section.mesh: '/' is a folder, not a file");
   CHECK(error("mesh: nothing.stl") == "scene.yaml:1:17: section.mesh: no such file: 'nothing.stl'");
 }
 
