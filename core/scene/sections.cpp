@@ -21,9 +21,10 @@ void describe(Fields& fields, TimeScene& time) {
 }
 
 void describe(Fields& fields, ProbeScene& probe) {
-  fields.optional(
-      "at", probe.at,
-      {.unit = "m", .help = "a point; the nearest node of the structure at the reference state is watched"});
+  fields.optional("at", probe.at,
+                  {.unit = "m",
+                   .help = "a point; the nearest node of the structure at the reference state is watched, "
+                           "which may be an element's length away"});
   fields.optional("part", probe.part,
                   {.help = "look only among this part's nodes; without `at`, the part as a whole"});
   fields.optional("rock", probe.rock, {.help = "the name of a rock or sphere"});

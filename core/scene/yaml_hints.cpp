@@ -8,7 +8,7 @@
 namespace talus::core {
 namespace {
 
-std::string trimmed(const std::string& text) {
+std::string without_blanks(const std::string& text) {
   const auto first = text.find_first_not_of(" \t\r");
   if (first == std::string::npos) return {};
   return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
@@ -22,7 +22,7 @@ std::optional<KeyedLine> keyed(const std::string& line) {
   const auto colon = line.find(": ");
   if (colon == std::string::npos) return std::nullopt;
   const std::string rest = line.substr(colon + 1);
-  return KeyedLine{trimmed(line.substr(0, colon)), trimmed(rest.substr(0, rest.find(" #")))};
+  return KeyedLine{without_blanks(line.substr(0, colon)), without_blanks(rest.substr(0, rest.find(" #")))};
 }
 
 bool indented_by_tab(const std::string& line) {
@@ -54,7 +54,7 @@ std::string value_hint(const KeyedLine& line) {
 
 /// "end:1", which YAML takes for a text.
 bool misses_blank(const std::string& line) {
-  const std::string text = trimmed(line);
+  const std::string text = without_blanks(line);
   const auto colon = text.find(':');
   return colon != std::string::npos && colon > 0 && colon + 1 < text.size() && text[colon + 1] != ' ';
 }

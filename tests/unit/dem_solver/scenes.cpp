@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "dem_solver/app/particle_run.hpp"
 #include "dem_solver/app/standalone.hpp"
 #include "tests/support/folder.hpp"
 #include "tests/support/scenes.hpp"
@@ -106,6 +107,27 @@ TEST_CASE("Angles as coefficients, frequencies as spins and other lost units of 
              Contains("youngs_modulus: '50000 mPa' is 50 Pa, but must be") && Contains("written MPa"));
   CHECK_THAT(text("0.5", "0", "density: 2700 t/mm^3, youngs_modulus: 1e7, poissons_ratio: 0.2"),
              Contains("density: '2700 t/mm^3' is"));
+}
+
+TEST_CASE("A probe of a rock that is not there, or of a structure that is not, is refused") {
+  const auto error = [](const std::string& probe) -> std::string {
+    try {
+      dem::read_run_scene(core::SceneFile::parse(
+          "time: {end: 1 s, step: 1 ms}\n" +
+              scene_with("  contacts: [{between: [rock, rock], hertz: {restitution: 0.5}}]\n"
+                         "  spheres: {boulder: {material: rock, radius: 0.1, at: [0, 0, 0]}}\n") +
+              "output: {probes: {one: " + probe + "}}\n",
+          "scene.yaml"));
+    } catch (const core::ConfigError& refused) {
+      return refused.what();
+    }
+    return {};
+  };
+  CHECK(error("{rock: boulder}").empty());
+  CHECK(error("{rock: bolder}") ==
+        "scene.yaml: output.probes.one.rock: there is no sphere or rock 'bolder'; known: boulder");
+  CHECK(error("{at: [0, 0, 0]}") ==
+        "scene.yaml: output.probes.one: watches a structure, and the scene has none");
 }
 
 namespace {
