@@ -151,6 +151,26 @@ void describe(core::Fields& fields, TensionFieldScene& field) {
                 "iterated: exact, no compression; principal: across the smaller principal trial stress");
 }
 
+namespace {
+
+bool is_isotropic(const OrthotropicSheet& sheet) {
+  constexpr double written = 1e-6;  // of a modulus: the digits of a scene
+  const auto near = [](double a, double b) { return std::abs(a - b) <= written * std::abs(b); };
+  return near(sheet.youngs_modulus_x, sheet.youngs_modulus_y) &&
+         near(sheet.shear_modulus, sheet.youngs_modulus_x / (2 * (1 + sheet.poissons_ratio_xy)));
+}
+
+/// What of a sheet has a direction; empty where nothing has.
+std::string directed(const MembraneScene& membrane) {
+  if (const auto* scene = std::get_if<OrthotropicScene>(&membrane.elasticity);
+      scene && !is_isotropic(scene->sheet))
+    return "the stiffness";
+  const PlaneStress<double>& stress = membrane.prestress.stress;
+  return stress.xx != stress.yy || stress.xy != 0 ? "the prestress" : "";
+}
+
+}  // namespace
+
 void describe(core::Fields& fields, MembraneScene& membrane) {
   fields.required("thickness", membrane.thickness,
                   {.unit = "m",
@@ -166,12 +186,19 @@ void describe(core::Fields& fields, MembraneScene& membrane) {
                                       {"orthotropic", "two directions, after Münsch and Reinhardt"}});
   fields.optional(
       "material_axis", membrane.material_axis,
-      {.help = "x direction of the material, projected on each triangle; its first edge where absent"});
+      {.help = "x direction of the material, projected on each triangle; absent: no direction is special"});
   std::optional<MembranePrestressScene> prestress;
   fields.section("prestress", prestress, "second Piola-Kirchhoff stress of the reference state");
   if (prestress) membrane.prestress = *prestress;
   fields.section("tension_field", membrane.tension_field,
                  "the sheet wrinkles or goes slack instead of carrying compression");
+  fields.rule(!membrane.material_axis || membrane.material_axis->norm() > 0, "material_axis",
+              "must not be zero");
+  const std::string what = directed(membrane);
+  fields.rule(membrane.material_axis || what.empty(), "material_axis",
+              fmt::format("needs `material_axis`, as {} differs by direction: write the x direction of the "
+                          "material, such as `material_axis: [1, 0, 0]`",
+                          what));
 }
 
 void describe_element(core::Fields& fields, ElementScene& element) {
