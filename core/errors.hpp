@@ -30,6 +30,7 @@ struct Complaint {
   int column = 0;             ///< from 1; 0: the line as a whole
   std::string key_path = {};  ///< "structure.parts.net.area"; empty for the file as a whole
   std::string message = {};   ///< one sentence: what is wrong, the value, what was expected
+  bool warning = false;       ///< a value to look at; the scene is read all the same
 
   /// "scene.yaml:12:5: structure.parts.net.area: must be greater than 0 m^2, but is -1 m^2"
   std::string text() const;

@@ -219,6 +219,8 @@ struct ResultWriter::Content {
       const auto& name = description.probes[i].name;
       json["peaks"][name] = {{"value", peaks.all()[i].value}, {"time_s", peaks.all()[i].time}};
       json["last"][name] = probe_row[i + 1];
+      const auto& watches = description.probes[i].watches;
+      if (!watches.empty()) json["probes"][name.substr(0, name.find('.'))] = watches;
     }
     for (const auto& line : description.ledger) json["energy"]["kinds"][line.name] = name_of(line.kind);
     for (std::size_t i = 0; rows > 0 && i < description.ledger.size(); ++i)

@@ -2,10 +2,16 @@
 
 #include <fmt/format.h>
 
+#include "core/scene/plausible.hpp"
+
 namespace talus::core {
 
 void describe(Fields& fields, TimeScene& time) {
-  fields.required("end", time.end, {.unit = "s", .range = positive, .help = "simulated time of the run"});
+  fields.required("end", time.end,
+                  {.unit = "s",
+                   .range = positive,
+                   .help = "simulated time of the run",
+                   .plausible = plausible::duration});
   fields.optional("step", time.step,
                   {.unit = "s",
                    .range = positive,
@@ -15,9 +21,10 @@ void describe(Fields& fields, TimeScene& time) {
 }
 
 void describe(Fields& fields, ProbeScene& probe) {
-  fields.optional(
-      "at", probe.at,
-      {.unit = "m", .help = "a point; the nearest node of the structure at the reference state is watched"});
+  fields.optional("at", probe.at,
+                  {.unit = "m",
+                   .help = "a point; the nearest node of the structure at the reference state is watched, "
+                           "which may be an element's length away"});
   fields.optional("part", probe.part,
                   {.help = "look only among this part's nodes; without `at`, the part as a whole"});
   fields.optional("rock", probe.rock, {.help = "the name of a rock or sphere"});

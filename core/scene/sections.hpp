@@ -21,7 +21,8 @@ void describe(Fields& fields, TimeScene& time);
 
 /// One named probe: the point of a structure part, or a rock, whose history goes to probes.csv.
 struct ProbeScene {
-  std::optional<Vector3> at;        ///< m; the nearest node of the structure at the reference state
+  std::optional<Vector3>
+      at;  ///< m; the nearest node of the structure at the reference state, an element's length away at most
   std::optional<std::string> part;  ///< look only among this part's nodes; or, without `at`, the part as a
                                     ///< whole (rope force, brake travel)
   std::optional<std::string> rock;  ///< the name of a rock or sphere

@@ -107,7 +107,8 @@ json to_json(const core::OutputDescription& outputs) {
          {"ledger", json::array()},
          {"groups", json::array()},
          {"tables", json::array()}};
-  for (const auto& probe : outputs.probes) j["probes"].push_back(probe.name);
+  for (const auto& probe : outputs.probes)
+    j["probes"].push_back({{"name", probe.name}, {"watches", probe.watches}});
   for (const auto& line : outputs.ledger)
     j["ledger"].push_back({{"name", line.name}, {"kind", static_cast<int>(line.kind)}});
   for (const auto& group : outputs.groups) j["groups"].push_back(to_json(group));
@@ -121,7 +122,8 @@ json to_json(const core::OutputDescription& outputs) {
 
 core::OutputDescription outputs_from(const json& j) {
   core::OutputDescription outputs;
-  for (const auto& probe : j.at("probes")) outputs.probes.push_back({.name = probe});
+  for (const auto& probe : j.at("probes"))
+    outputs.probes.push_back({.name = probe.at("name"), .watches = probe.at("watches")});
   for (const auto& line : j.at("ledger")) {
     outputs.ledger.push_back(
         {.name = line.at("name"), .kind = static_cast<core::LedgerKind>(line.at("kind").get<int>())});

@@ -94,6 +94,7 @@ CoupledScene read_coupled_scene(const core::SceneFile& file, std::vector<core::C
   if (scene.interface && !(scene.structure && scene.particles)) {
     complain("interface", "needs both a structure and particles, but the scene has only one of them");
   }
+  core::log_warnings(complaints);
   if (complaints.empty()) check_windows(scene, complain);
   return scene;
 }

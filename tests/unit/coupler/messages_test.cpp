@@ -26,7 +26,7 @@ TEST_CASE("a declaration arrives as it was sent") {
   Declaration sent{.program = "dummy 1.0", .step = 5e-5, .insists_on_step = true};
   sent.limits = {{.name = "bars", .seconds = 6e-5, .stability = true, .reason = "2/w"}};
   sent.effects = {{.name = "friction", .present = true, .reason = "named"}};
-  sent.outputs.probes = {{"a.displacement_z_m"}};
+  sent.outputs.probes = {{"a.displacement_z_m", "node 7 of net"}};
   sent.outputs.ledger = {{"structure.kinetic_J", core::LedgerKind::stored},
                          {"structure.damping_J", core::LedgerKind::dissipated}};
   sent.outputs.groups = {
@@ -43,6 +43,9 @@ TEST_CASE("a declaration arrives as it was sent") {
   CHECK(got.insists_on_step);
   REQUIRE(got.limits.size() == 1);
   CHECK(got.limits[0].reason == "2/w");
+  REQUIRE(got.outputs.probes.size() == 1);
+  CHECK(got.outputs.probes[0].name == "a.displacement_z_m");
+  CHECK(got.outputs.probes[0].watches == "node 7 of net");
   REQUIRE(got.outputs.ledger.size() == 2);
   CHECK(got.outputs.ledger[1].kind == core::LedgerKind::dissipated);
   REQUIRE(got.outputs.groups.size() == 1);
