@@ -76,6 +76,14 @@ struct Effect {
   std::string name;  ///< "friction"
   bool present = false;
   std::string reason;  ///< "particles.contacts[0].friction is given" or what the scene would have to name
+  // What `talus explain` of a result needs to advise; empty where the effect has no such thing.
+  std::string key = {};          ///< of the scene, which names it: "particles.contacts[0].friction"
+  std::string ledger_line = {};  ///< whose energy appears where it acts: "structure.bulk_damping_J"
+  /// It may act without doing work, as friction that holds a block at rest: only where its line stays at round-off has
+  /// it not acted.
+  bool may_hold = false;
+  /// What is exceeded where it is missing: the name of a step limit, or "compression of <group>" of the field output.
+  std::string limit = {};
 };
 
 /// What a participant says of itself before time 0.

@@ -190,7 +190,13 @@ Bytes encode(const Declaration& declaration) {
                       {"reason", limit.reason}});
   }
   for (const auto& effect : declaration.effects) {
-    effects.push_back({{"name", effect.name}, {"present", effect.present}, {"reason", effect.reason}});
+    effects.push_back({{"name", effect.name},
+                       {"present", effect.present},
+                       {"reason", effect.reason},
+                       {"key", effect.key},
+                       {"ledger_line", effect.ledger_line},
+                       {"may_hold", effect.may_hold},
+                       {"limit", effect.limit}});
   }
   return cbor({{"program", declaration.program},
                {"step", declaration.step},
@@ -224,8 +230,13 @@ Declaration decode_declaration(ByteView bytes, const std::string& sender) {
                                     .reason = limit.at("reason")});
     }
     for (const auto& effect : j.at("effects")) {
-      declaration.effects.push_back(
-          {.name = effect.at("name"), .present = effect.at("present"), .reason = effect.at("reason")});
+      declaration.effects.push_back({.name = effect.at("name"),
+                                     .present = effect.at("present"),
+                                     .reason = effect.at("reason"),
+                                     .key = effect.value("key", ""),
+                                     .ledger_line = effect.value("ledger_line", ""),
+                                     .may_hold = effect.value("may_hold", false),
+                                     .limit = effect.value("limit", "")});
     }
     validate(declaration);
     return declaration;

@@ -57,6 +57,8 @@ void IterationTally::archive(core::StateArchive& archive) {
   archive.count("iterations", iterations);
   archive.count("windows_not_converged", not_converged);
   archive.count("most_iterations", most);
+  archive.count("windows_in_contact", in_contact);
+  archive.count("most_iterations_in_contact", most_in_contact);
   archive.count("windows_halved", halved);
   archive.count("most_halvings", most_halvings);
 }

@@ -62,7 +62,7 @@ class Implicit {
       fail_not_converged(window, outcome.iterations, outcome.verdict);
     if (!outcome.verdict.converged()) acceleration_.forget();  // what was learnt in it misleads
     exchange.accept_window();
-    count(window, outcome);
+    count(window, outcome, exchange.touching());
     return true;
   }
 
@@ -104,8 +104,12 @@ class Implicit {
     }
   }
 
-  void count(const Window& window, const Outcome& outcome) {
+  void count(const Window& window, const Outcome& outcome, bool in_contact) {
     ++tally_.windows;
+    if (in_contact) {
+      ++tally_.in_contact;
+      tally_.most_in_contact = std::max<std::int64_t>(tally_.most_in_contact, outcome.iterations);
+    }
     tally_.most = std::max<std::int64_t>(tally_.most, outcome.iterations);
     tally_.most_halvings = std::max(tally_.most_halvings, window.halvings);
     if (!outcome.verdict.converged()) ++tally_.not_converged;

@@ -40,7 +40,13 @@ coupler::Declaration declaration_of(const RunScene& scene, const ParticleRun& ru
   for (const ParticleStepLimit& limit : run.limits)
     declaration.limits.push_back({limit.name, limit.seconds, limit.stability, limit.reason});
   for (const ParticleEffect& effect : effects_of(scene.particles, {has_interface, scene.output.has_value()}))
-    declaration.effects.push_back({effect.name, effect.present, effect.reason});
+    declaration.effects.push_back({.name = effect.name,
+                                   .present = effect.present,
+                                   .reason = effect.reason,
+                                   .key = effect.key,
+                                   .ledger_line = effect.ledger_line,
+                                   .may_hold = effect.may_hold,
+                                   .limit = effect.limit});
   return declaration;
 }
 

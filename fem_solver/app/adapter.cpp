@@ -112,7 +112,12 @@ coupler::Declaration declaration(Structure& structure, const StructuralScene& sc
   for (const StepBound& bound : structure.bounds())
     declared.limits.push_back({bound.name, bound.seconds, true, bound.reason});
   for (const auto& effect : structure.effects(scene.structure))
-    declared.effects.push_back({effect.name, effect.present, effect.reason});
+    declared.effects.push_back({.name = effect.name,
+                                .present = effect.present,
+                                .reason = effect.reason,
+                                .key = effect.key,
+                                .ledger_line = effect.ledger_line,
+                                .limit = effect.limit});
   return declared;
 }
 

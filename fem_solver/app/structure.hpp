@@ -32,6 +32,9 @@ struct StructuralEffect {
   std::string name;
   bool present = false;
   std::string reason;
+  std::string key = {};          ///< that names it
+  std::string ledger_line = {};  ///< whose energy appears where it acts; empty where it may act without work
+  std::string limit = {};        ///< "compression of net", where it takes compression away
 };
 
 /// A structure ready to run: everything that is made of the scene before time 0.

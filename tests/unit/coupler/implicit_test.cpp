@@ -309,6 +309,27 @@ TEST_CASE("a strong impact keeps the energy and finds the peak where the weak sc
   CHECK(weak.energy > 1);
 }
 
+TEST_CASE("windows with contact are counted apart from free flight, with their own worst") {
+  const test::SphereOnSpring system;
+  const double length = 1e-4;
+  const auto contact = test::undivided(system, 1e-7).contact;
+  const auto tally_of = [&](const Convergence& convergence) {
+    test::SphereState sphere;
+    test::CoupledPair pair([&](auto& p) { test::serve_structure(p, system); },
+                           [&](auto& p) { test::serve_sphere(p, system, sphere); }, {length});
+    Implicit scheme(MotionUnknown(pair.exchange()), Aitken(0.5), convergence, Predictor::linear);
+    for (int n = 0; n * length < 3 * contact; ++n)
+      scheme.compute(pair.exchange(), {.index = n, .unit = length});
+    return scheme.tally();
+  };
+  const auto iterating = tally_of({.relative = 1e-5});
+  CHECK(iterating.in_contact > 0);
+  CHECK(iterating.in_contact < iterating.windows);
+  CHECK(iterating.most_in_contact == iterating.most);
+  CHECK(iterating.most_in_contact > 1);
+  CHECK(tally_of({.relative = 1e9, .absolute = {1e9, 1e9, 1e9}}).most_in_contact == 1);
+}
+
 TEST_CASE("an impact on a light node that plain iteration cannot compute is rescued by halving") {
   // Mass ratio 1000, windows ten times the limit of plain iteration.
   test::SphereOnSpring system;

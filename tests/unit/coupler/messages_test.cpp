@@ -25,7 +25,13 @@ TEST_CASE("a surface arrives as it was sent") {
 TEST_CASE("a declaration arrives as it was sent") {
   Declaration sent{.program = "dummy 1.0", .step = 5e-5, .insists_on_step = true};
   sent.limits = {{.name = "bars", .seconds = 6e-5, .stability = true, .reason = "2/w"}};
-  sent.effects = {{.name = "friction", .present = true, .reason = "named"}};
+  sent.effects = {{.name = "friction",
+                   .present = true,
+                   .reason = "named",
+                   .key = "contacts.friction",
+                   .ledger_line = "dummy.friction_J",
+                   .may_hold = true,
+                   .limit = "none"}};
   sent.outputs.probes = {{"a.displacement_z_m", "node 7 of net"}};
   sent.outputs.ledger = {{"structure.kinetic_J", core::LedgerKind::stored},
                          {"structure.damping_J", core::LedgerKind::dissipated}};
@@ -46,6 +52,11 @@ TEST_CASE("a declaration arrives as it was sent") {
   REQUIRE(got.outputs.probes.size() == 1);
   CHECK(got.outputs.probes[0].name == "a.displacement_z_m");
   CHECK(got.outputs.probes[0].watches == "node 7 of net");
+  REQUIRE(got.effects.size() == 1);
+  CHECK(got.effects[0].key == "contacts.friction");
+  CHECK(got.effects[0].ledger_line == "dummy.friction_J");
+  CHECK(got.effects[0].may_hold);
+  CHECK(got.effects[0].limit == "none");
   REQUIRE(got.outputs.ledger.size() == 2);
   CHECK(got.outputs.ledger[1].kind == core::LedgerKind::dissipated);
   REQUIRE(got.outputs.groups.size() == 1);
