@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <string>
 
 /// How a span of time is cut into steps: the one rule of every program, for steps of a window and for steps or
 /// windows of a run.
@@ -28,5 +29,9 @@ inline EqualSteps equal_steps(double span, double longest) noexcept {
   const bool divides = std::abs(whole - span) <= 2 * whole_ratio * span;
   return {count, divides ? longest : span / static_cast<double>(count)};
 }
+
+/// A sentence for a run whose end (s) is no multiple of the step or window that its scene names (s); else empty.
+/// @param what "step", "window"
+std::string words_about_length(const char* what, double end, double named);
 
 }  // namespace talus::core

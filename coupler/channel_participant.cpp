@@ -8,6 +8,7 @@
 
 #include "core/errors.hpp"
 #include "coupler/messages/messages.hpp"
+#include "coupler/messages/validate.hpp"
 #include "coupler/transport/mailbox.hpp"
 #include "coupler/transport/signal.hpp"
 
@@ -36,6 +37,16 @@ bool have_one_set(const Control& control) {
   };
   const ArraySlot structure = force_of(Role::structure), particles = force_of(Role::particles);
   return structure.count > 0 && structure.count == particles.count && structure.offset == particles.offset;
+}
+
+/// What this side is about to say. @throws UsageError naming the call
+template <class Message>
+void check_own(const Message& message, const char* call) {
+  try {
+    validate(message);
+  } catch (const std::invalid_argument& error) {
+    throw core::UsageError(fmt::format("{}: {}", call, error.what()));
+  }
 }
 
 const char* name_of(ArrayName name) {
@@ -73,6 +84,11 @@ core::NumericalError::Details no_number(std::span<const double> values, const Ha
           .value = *bad};
 }
 
+bool is_stopped(pid_t pid) {
+  const auto activity = pid > 0 ? activity_of(pid) : std::nullopt;
+  return activity && activity->state == ProcessActivity::State::stopped;
+}
+
 Command command_of(const CommandRecord& record) {
   return {.action = static_cast<Action>(record.action),
           .fields = record.fields != 0,
@@ -99,6 +115,7 @@ ChannelParticipant::ChannelParticipant(std::shared_ptr<Segment> segment, const J
                                   .start = header.coupler_start};
     coupler_ = ProcessHandle(coupler);
     watch_.emplace(coupler, name_of(options.role));
+    signals_.emplace(header.state);
     ask_for_early_turns();
   }
   auto expected = static_cast<std::uint32_t>(ChannelState::awaited);
@@ -150,6 +167,8 @@ void ChannelParticipant::look_around(double seconds_waited) {
     last_heartbeat_ = heartbeat;
     last_heartbeat_at_ = seconds_waited;
   } else if (seconds_waited - last_heartbeat_at_ > options_.timeout) {
+    last_heartbeat_at_ = seconds_waited;
+    if (is_stopped(coupler_.pid())) return;  // by Ctrl-Z: it may go on
     give_up(fmt::format("gave no sign of life for {:g} s", options_.timeout));
   }
 }
@@ -161,9 +180,10 @@ void ChannelParticipant::publish_surface(const mesh::Surface& surface, std::span
     throw core::UsageError(
         fmt::format("publish_surface(): {} masses for {} nodes", node_masses.size(), surface.node_count()));
   }
+  const PublishedSurface published{surface, {node_masses.begin(), node_masses.end()}};
+  check_own(published, "publish_surface()");
   waited_for_ = "its surface to be taken";
-  send(channel_, Side::participant, MessageKind::surface,
-       encode({surface, {node_masses.begin(), node_masses.end()}}),
+  send(channel_, Side::participant, MessageKind::surface, encode(published),
        [this](double seconds) { look_around(seconds); });
   surface_nodes_ = node_masses.size();
   stage_ = Stage::surface_known;
@@ -184,6 +204,7 @@ mesh::Surface ChannelParticipant::receive_surface(std::vector<double>& node_mass
 
 void ChannelParticipant::declare(const Declaration& declaration) {
   expect(Stage::surface_known, "declare()");
+  check_own(declaration, "declare()");
   waited_for_ = "its declaration to be taken";
   send(channel_, Side::participant, MessageKind::declaration, encode(declaration),
        [this](double seconds) { look_around(seconds); });

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "coupler/coupler_watch.hpp"
+#include "coupler/joined_signals.hpp"
 #include "coupler/messages/output_arrays.hpp"
 #include "coupler/participant.hpp"
 #include "coupler/transport/layout.hpp"
@@ -72,7 +73,8 @@ class ChannelParticipant final : public Participant {
   transport::Control& control_;
   transport::Channel& channel_;
   transport::ProcessHandle coupler_;
-  std::optional<CouplerWatch> watch_;  ///< where the coupler is another process
+  std::optional<CouplerWatch> watch_;            ///< where the coupler is another process
+  std::optional<SignalsLeftToCoupler> signals_;  ///< likewise
   JoinOptions options_;
   Stage stage_ = Stage::joined;
   std::string waited_for_ = "the coupler to begin";

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <span>
@@ -32,7 +33,7 @@ enum class Action : std::uint32_t {
   save_state,     ///< remember the present state; it is the start of a window
   restore_state,  ///< go back to the state remembered last
   report,         ///< fill the output values: probes, ledger, and where `fields` is set the field frames
-  write_checkpoint,  ///< write the state to `path`
+  write_checkpoint,  ///< write the state to `path`; no file there after the answer: it could not be written
   read_checkpoint,   ///< replace the state by that in `path`; before the first window only
   finish,            ///< no more commands; leave
 };
@@ -188,9 +189,13 @@ class Participant {
 /// join() throws.
 core::ExitCode take_part(const JoinOptions& options, const std::function<void(Participant&)>& serve);
 
+/// Answers write_checkpoint by `write`, which gets the path. Where the system refuses the file, this says so and
+/// leaves none: the coupler then goes on without this checkpoint.
+void write_checkpoint(const Command& command, const std::function<void(const std::filesystem::path&)>& write);
+
 /// Answers write_checkpoint and read_checkpoint for a state that is one block of plain memory; does nothing
 /// for other commands. @throws ConfigError where the checkpoint holds a state of another size or cannot be
-/// read, std::runtime_error where it cannot be written
+/// read
 void checkpoint_state(const Command& command, std::span<std::byte> state);
 
 /// Answers Action::report from a source; the same for every solver.

@@ -68,6 +68,9 @@ class SceneFile {
   std::unique_ptr<Content> content_;
 };
 
+/// Logs the warnings among complaints and takes them out, so that what is left are errors.
+void log_warnings(std::vector<Complaint>& complaints);
+
 /// Reads the sections of a scene one after the other and throws once at the end, with every complaint.
 ///
 ///     SceneReader reader(file);
@@ -96,8 +99,9 @@ class SceneReader {
   }
   /// A complaint found by the caller, e.g. a name that no other section defines.
   void complain(Complaint complaint) { complaints_.push_back(std::move(complaint)); }
-  bool has_complaints() const { return !complaints_.empty(); }
-  /// @throws ConfigError with all complaints so far, sorted by place.
+  /// Warnings are none.
+  bool has_complaints() const;
+  /// Logs the warnings. @throws ConfigError with all complaints so far, sorted by place.
   void finish();
 
  private:

@@ -27,8 +27,11 @@ struct CoupledScene {
   std::optional<InterfaceScene> interface;
   std::optional<SolverScene> structure, particles;
 
-  /// s; the regular one. 0 where the scene names none, as one with a single side may: that side's step then is the window.
-  double window() const { return coupling.window.value_or(time.step.value_or(0)); }
+  /// s; the regular one. As long as the scene says where that divides the run, else shorter, so that the run
+  /// ends with a window (core::equal_steps).
+  double window() const;
+  /// s; 0: none, as a scene of a single side may: that side's step then is the window
+  double named_window() const { return coupling.window.value_or(time.step.value_or(0)); }
   /// In regular windows; 1 where windows do not grow.
   std::int64_t longest_window() const;
   /// How often a window that does not converge may be cut in half.

@@ -48,7 +48,7 @@ ByteView expect(const transport::Message& message, MessageKind kind, const Peer&
 
 PublishedSurface hear_surface(Session& session, Peer& structure) {
   const auto message = session.receive(structure, "its surface");
-  return decode_surface(expect(message, MessageKind::surface, structure, "its surface"));
+  return decode_surface(expect(message, MessageKind::surface, structure, "its surface"), structure.label());
 }
 
 void hear_request(Session& session, Peer& particles) {
@@ -106,8 +106,8 @@ std::optional<Interface> introduce(Session& session, const std::optional<Interfa
   for (Peer* peer : session.peers()) {
     all.collect([&] {
       const auto message = session.receive(*peer, "its declaration");
-      peer->set_declaration(
-          decode_declaration(expect(message, MessageKind::declaration, *peer, "its declaration")));
+      peer->set_declaration(decode_declaration(
+          expect(message, MessageKind::declaration, *peer, "its declaration"), peer->label()));
     });
   }
   all.throw_if_any();

@@ -76,7 +76,7 @@ void write_pages(const LoadedStudy& study, const std::vector<PlannedRun>& runs,
 }  // namespace
 
 core::ExitCode run_study(const StudyRequest& request) {
-  core::watch_stop_signals();
+  core::watch_stop_signals("with the run in progress");
   if (request.parts < 1 || request.part < 0 || request.part >= request.parts)
     throw core::ConfigError("--part wants I/N with I from 1 to N");
   const LoadedStudy study = load_study(request.study);

@@ -59,7 +59,7 @@ struct Header {
   std::int64_t coupler_pid = 0;  ///< 0: coupler and participants are threads of one process
   std::uint64_t coupler_start =
       0;  ///< clock ticks since boot, so that a reused pid is not mistaken for the coupler
-  std::uint64_t heartbeat = 0;  ///< counts while the coupler waits; a stopped coupler stops counting
+  std::uint64_t heartbeat = 0;  ///< counts while the coupler lives; a stopped coupler stops counting
   std::uint32_t state = 0;      ///< RunState
   std::uint32_t abort_text_bytes = 0;
   std::array<char, 1984> abort_text{};  ///< who ended the run and why, for the other participants' messages

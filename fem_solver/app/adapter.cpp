@@ -176,7 +176,8 @@ void obey(const coupler::Command& command, Structure& structure, coupler::Partic
       integrator.last_output_time = command.time;
       break;
     case Action::write_checkpoint:
-      return structure.write_checkpoint(command.path);
+      return coupler::write_checkpoint(
+          command, [&](const std::filesystem::path& path) { structure.write_checkpoint(path); });
     case Action::read_checkpoint:
       structure.read_checkpoint(command.path);
       break;

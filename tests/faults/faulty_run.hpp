@@ -69,8 +69,8 @@ class FaultyRun {
   /// The command that the run prints for the side it waits for.
   std::vector<std::string> command_by_hand() const {
     const std::regex command("\n *(\\S+) (\\S+) --join (talus-\\S+)\n");
-    std::string text = output();  // outlives what is found in it
     std::smatch line;
+    std::string text = output();  // outlives what is found in it
     const auto deadline = std::chrono::steady_clock::now() + end_limit;
     while (!std::regex_search(text, line, command)) {
       REQUIRE(std::chrono::steady_clock::now() < deadline);
