@@ -10,7 +10,8 @@ add_library(talus_warnings INTERFACE)
 target_compile_options(talus_warnings INTERFACE
   $<$<COMPILE_LANGUAGE:CXX>:-Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -Wcast-align>)
 
-# The same bits on every run, machine and thread count: no contraction into fused operations, no reassociation.
+# The same bits on every run and with any number of threads, of one build: no contraction into fused operations, no reassociation. Another
+# compiler, mathematical library or instruction set may round differently.
 # -fno-math-errno only drops errno, which lets square roots vectorise.
 add_library(talus_numerics INTERFACE)
 target_compile_options(talus_numerics INTERFACE -ffp-contract=off -fno-math-errno)
