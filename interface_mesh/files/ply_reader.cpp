@@ -121,6 +121,7 @@ class PlyReader {
     if (element.name == "edge") return read_edges(element);
     if (element.name == "tristrips" && element.count > 0)
       text_.fail("triangle strips are not read: save the file with faces");
+    if (element.properties.empty()) return;  // takes no place, whatever its count is
     for (std::int64_t k = 0; k < element.count; ++k) values_.read_row(element, row_);
   }
 
