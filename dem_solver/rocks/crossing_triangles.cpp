@@ -12,8 +12,8 @@ using core::Vector3;
 
 namespace {
 
-/// The sign of the volume that u, v, w span; 0 where round-off could have made it (J. Shewchuk 1997, the first
-/// bound of orient3d: differences of coordinates are taken before).
+/// The sign of the volume that u, v, w span; 0 where round-off could have made it (J. Shewchuk 1997, the
+/// first bound of orient3d: differences of coordinates are taken before).
 int side(const Vector3& u, const Vector3& v, const Vector3& w) {
   const Vector3 across = v.cross(w);
   const Vector3 terms(std::abs(v.y() * w.z()) + std::abs(v.z() * w.y()),

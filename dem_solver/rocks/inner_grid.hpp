@@ -42,8 +42,8 @@ class InnerColumns {
   std::vector<std::vector<double>> heights_;  ///< m; of each column, sorted
 };
 
-/// The height (m) at which the line along z through a place passes through a triangle, in `height`; false where
-/// it passes beside it.
+/// The height (m) at which the line along z through a place passes through a triangle, in `height`; false
+/// where it passes beside it.
 bool passes_through(const Place& line, const std::array<core::Vector3, 3>& corners, double& height) noexcept;
 
 }  // namespace talus::dem

@@ -8,7 +8,8 @@ namespace talus::dem {
 /// Volume moments of a closed surface of triangles, exact: the sum over the tetrahedra from the origin to
 /// each triangle,
 ///     V = det/6   S = V (a + b + c)/4   C = V/20 (a a^T + b b^T + c c^T + s s^T), s = a + b + c
-/// Test: "A block's mass properties are those of the closed form". @pre the surface is closed (closed_surface.hpp)
+/// Test: "A block's mass properties are those of the closed form".
+/// @pre the surface is closed (closed_surface.hpp)
 VolumeMoments polyhedron_moments(const mesh::Surface& surface);
 
 /// A cube without its corners, in the style of the test blocks of EAD 340059 (formerly ETAG 027): each corner

@@ -67,8 +67,8 @@ struct Shape {
   double deviation = 0;  ///< m; of its nodes from the balls
 };
 
-/// The centre of mass is put at `at`, so the frame of a file or list does not matter: the shape is brought near
-/// the origin, where moments lose no digits to coordinates of a map.
+/// The centre of mass is put at `at`, so the frame of a file or list does not matter: the shape is brought
+/// near the origin, where moments lose no digits to coordinates of a map.
 Shape shape_of(const std::string&, const SpheresShapeScene& scene, double) {
   Shape shape;
   for (std::size_t k = 0; k < scene.centres.size(); ++k)

@@ -21,7 +21,8 @@ inline mesh::Index add_node(mesh::Surface& surface, const core::Vector3& at) {
   return surface.node_count() - 1;
 }
 
-/// An octahedron whose faces are divided in four so many times, on the unit sphere: 8 * 4^divisions triangles.
+/// An octahedron whose faces are divided in four so many times, on the unit sphere: 8 * 4^divisions
+/// triangles.
 inline mesh::Surface sphere_surface(int divisions) {
   mesh::Surface surface;
   for (int k = 0; k < 6; ++k) add_node(surface, (k % 2 ? -1.0 : 1.0) * core::Vector3::Unit(k / 2));

@@ -176,8 +176,8 @@ TEST_CASE("a deviation of a two-hundredth of the rock is kept or refused, never 
   nodes = (Vector3(0.5, 0.05, 0.05).asDiagonal() * nodes).eval();
   const double deviation = 0.005;
   const SphereFilling filling = fill_with_spheres(needle, {.deviation = deviation});
-  // Of the grid of half the deviation some point is nearer than half its diagonal, and is filled: the sphere around
-  // any other deep enough stands out by no more than the deviation and twice that way.
+  // Of the grid of half the deviation some point is nearer than half its diagonal, and is filled: the sphere
+  // around any other deep enough stands out by no more than the deviation and twice that way.
   const double most = (1 + std::sqrt(3.0) / 2) * deviation;
   std::mt19937 random(4);
   std::uniform_real_distribution<double> part(-1, 1);
@@ -241,8 +241,8 @@ TEST_CASE(
   ball.positions[0] = -1.5;  // the corner at (1, 0, 0)
   ball.positions[1] = 0.013;
   CHECK_THAT(closed_surface_fault(ball), Contains("crosses itself: triangles"));
-  // Two pyramids on a ring of five, one of whose corners is pushed through the far side: triangles that cross share
-  // the tip.
+  // Two pyramids on a ring of five, one of whose corners is pushed through the far side: triangles that cross
+  // share the tip.
   mesh::Surface pyramids;
   for (int k = 0; k < 5; ++k) {
     const double angle = 2 * std::numbers::pi * k / 5;
