@@ -37,7 +37,8 @@ struct GroupDescription {
 
 /// A column of probes.csv.
 struct ProbeDescription {
-  std::string name;  ///< "net_centre.displacement_z_m": probe, quantity, SI unit
+  std::string name;          ///< "net_centre.displacement_z_m": probe, quantity, SI unit
+  std::string watches = {};  ///< what stands for the probe's point: "node 220 of net at ...", for the summary
 };
 
 /// How a ledger line enters the balance  stored + dissipated - supplied = constant. A memo is only shown.

@@ -39,14 +39,24 @@ inline constexpr Range positive{.low = 0, .low_included = false};
 inline constexpr Range not_negative{.low = 0};
 inline constexpr Range fraction{.low = 0, .high = 1};
 
+/// The sizes a value can have by what it means; 0 always can. A value outside of `possible` is refused where it is
+/// written with a unit, or its key has none: such a value claims to be what it says. A plain number outside, and
+/// any value outside of `usual`, is read with a warning, as the whole scene may be in other units.
+struct Plausible {
+  Range usual = any;
+  Range possible = any;
+  const char* hint = "";  ///< what may have been meant, and how it is written
+};
+
 /// What a key says of itself. `unit` is the SI unit a plain number is taken in ("" for a dimensionless one);
 /// a string value such as "4 mm" is converted to it and refused where its dimension differs. The two columns
 /// of a table of pairs have a unit each: "m, N". The range holds for every number of a list, vector or table,
-/// and for each component.
+/// and for each component; so does what is plausible (plausible.hpp).
 struct KeyTraits {
   const char* unit = "";
   Range range = any;
   const char* help = "";  ///< one line of the schema page, no full stop
+  Plausible plausible = {};
 };
 
 class Fields;

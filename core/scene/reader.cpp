@@ -6,10 +6,12 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdint>
-#include <fstream>
+#include <set>
 #include <sstream>
 #include <tuple>
 
+#include "core/input_file.hpp"
+#include "core/program/log.hpp"
 #include "core/scene/section_reader.hpp"
 #include "core/scene/tree.hpp"
 
@@ -32,20 +34,14 @@ namespace {
 
 constexpr std::size_t longest_chain = 16;  // files that extend each other
 
-std::string file_text(const std::filesystem::path& path, const Complaint& if_missing) {
-  std::error_code error;
-  const auto fail = [&](const std::string& message) {
-    Complaint problem = if_missing;
-    problem.message = message;
+std::string file_text(const std::filesystem::path& path, const Complaint& if_unreadable) {
+  try {
+    return text_of_file(path);
+  } catch (const ConfigError& error) {
+    Complaint problem = if_unreadable;
+    problem.message = error.what();
     throw ConfigError(std::vector{problem});
-  };
-  if (!std::filesystem::exists(path, error)) fail("no such file: " + quoted(path.string()));
-  if (std::filesystem::is_directory(path, error)) fail(quoted(path.string()) + " is a folder, not a scene");
-  std::ifstream stream(path, std::ios::binary);
-  std::ostringstream text;
-  if (stream.peek() != std::ifstream::traits_type::eof()) text << stream.rdbuf();
-  if (stream.bad() || (!stream && !stream.eof())) fail("cannot be read: " + quoted(path.string()));
-  return text.str();
+  }
 }
 
 struct LoadedTree {
@@ -134,6 +130,27 @@ std::filesystem::path SceneFile::path_at(const std::string& key_path) const {
   if (node == nullptr || node->kind != SceneNode::Kind::scalar) return {};
   const auto& file = node->place.file ? *node->place.file : content_->path;
   return file.parent_path() / node->scalar;
+}
+
+namespace {
+
+void add_named_files(const SceneNode& node, const std::filesystem::path& folder,
+                     std::set<std::filesystem::path>& found) {
+  for (const auto& item : node.items) add_named_files(item, folder, found);
+  for (const auto& entry : node.entries) add_named_files(entry.value, folder, found);
+  if (node.kind != SceneNode::Kind::scalar || node.scalar.empty()) return;
+  const auto from = node.place.file ? node.place.file->parent_path() : folder;
+  const auto path = (from / node.scalar).lexically_normal();
+  std::error_code not_a_path;
+  if (std::filesystem::is_regular_file(path, not_a_path)) found.insert(path);
+}
+
+}  // namespace
+
+std::vector<std::filesystem::path> SceneFile::named_files() const {
+  std::set<std::filesystem::path> found;
+  add_named_files(content_->root, content_->path.parent_path(), found);
+  return {found.begin(), found.end()};
 }
 
 std::string SceneFile::text() const {
@@ -243,8 +260,20 @@ void SceneFile::set(const std::string& key_path, const std::string& value) {
   }
 }
 
+void log_warnings(std::vector<Complaint>& complaints) {
+  std::erase_if(complaints, [](const Complaint& complaint) {
+    if (complaint.warning) log_warning(complaint.text());
+    return complaint.warning;
+  });
+}
+
+bool SceneReader::has_complaints() const {
+  return !std::ranges::all_of(complaints_, &Complaint::warning);
+}
+
 void SceneReader::finish() {
   file_.check_sections(known_, complaints_);
+  log_warnings(complaints_);
   if (complaints_.empty()) return;
   std::stable_sort(complaints_.begin(), complaints_.end(), [](const Complaint& a, const Complaint& b) {
     return std::tie(a.file, a.line, a.column) < std::tie(b.file, b.line, b.column);

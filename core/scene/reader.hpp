@@ -41,6 +41,9 @@ class SceneFile {
   /// The path that stands at "structure.solver", relative to the file it was written in, which may be one
   /// that this scene extends. Empty where nothing or no text stands there.
   std::filesystem::path path_at(const std::string& key_path) const;
+  /// The files that the scene names anywhere, such as meshes and solvers: every text of it that, taken from the
+  /// folder of the file it is written in, is the path of a file. Sorted, each once.
+  std::vector<std::filesystem::path> named_files() const;
   /// Hexadecimal digest of the effective content (after `extends`), the `scene_hash` of summaries.
   std::string hash() const;
   bool has_section(const std::string& key) const;
@@ -64,6 +67,9 @@ class SceneFile {
   struct Content;
   std::unique_ptr<Content> content_;
 };
+
+/// Logs the warnings among complaints and takes them out, so that what is left are errors.
+void log_warnings(std::vector<Complaint>& complaints);
 
 /// Reads the sections of a scene one after the other and throws once at the end, with every complaint.
 ///
@@ -93,8 +99,9 @@ class SceneReader {
   }
   /// A complaint found by the caller, e.g. a name that no other section defines.
   void complain(Complaint complaint) { complaints_.push_back(std::move(complaint)); }
-  bool has_complaints() const { return !complaints_.empty(); }
-  /// @throws ConfigError with all complaints so far, sorted by place.
+  /// Warnings are none.
+  bool has_complaints() const;
+  /// Logs the warnings. @throws ConfigError with all complaints so far, sorted by place.
   void finish();
 
  private:

@@ -46,7 +46,7 @@ class SchemaPrinter final : public Fields {
   std::string place() const override { return {}; }
   void scalar(const char* key, ScalarSlot slot, Presence presence, KeyTraits traits, Assign) override {
     const std::string unit = std::string(traits.unit).find(',') == std::string::npos ? traits.unit : "";
-    row(key, expected_value(slot, traits), range_text(traits.range, unit),
+    row(key, expected_value(slot, traits), range_and_plausible(traits, unit),
         presence == Presence::with_default ? std::visit(DefaultText{}, slot) : default_of(presence),
         traits.help);
   }
@@ -88,6 +88,12 @@ class SchemaPrinter final : public Fields {
     return presence == Presence::required ? "required" : "absent";
   }
   static std::string at_least(std::size_t least) { return least ? fmt::format("at least {}", least) : ""; }
+  static std::string range_and_plausible(const KeyTraits& traits, const std::string& unit) {
+    const std::string range = range_text(traits.range, unit),
+                      usual = range_text(traits.plausible.usual, unit);
+    if (usual.empty()) return range;
+    return fmt::format("{}{}usually {}", range, range.empty() ? "" : "; ", usual);
+  }
   void row(const char* key, const std::string& value, const std::string& range,
            const std::string& default_text, const std::string& help) {
     rows_ += fmt::format("| `{}` | {} | {} | {} | {} |\n", key, value, range, default_text, help);

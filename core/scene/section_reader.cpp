@@ -26,7 +26,7 @@ SectionReader::SectionReader(const SceneNode& node, Location location, std::vect
     : node_(node),
       location_(std::move(location)),
       complaints_(complaints),
-      complaints_before_(complaints.size()) {}
+      complaints_before_(static_cast<std::ptrdiff_t>(complaints.size())) {}
 
 void SectionReader::read(const SceneNode& value, const Location& location, const Describe& describe,
                          std::vector<Complaint>& complaints) {
@@ -52,9 +52,14 @@ void SectionReader::finish() {
 }
 
 void SectionReader::rule(bool holds, const char* key, const std::string& message) {
-  if (holds || complaints_.size() > complaints_before_) return;
+  if (holds || has_errors()) return;
   const SceneEntry* found = node_.find(key);
   complain(found ? Location{path_of(key), found->value.place} : location_, message);
+}
+
+bool SectionReader::has_errors() const {
+  return std::any_of(complaints_.begin() + complaints_before_, complaints_.end(),
+                     [](const Complaint& complaint) { return !complaint.warning; });
 }
 
 std::string SectionReader::place() const {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+
 #include "core/scene/fields.hpp"
 #include "core/scene/tree.hpp"
 
@@ -39,6 +41,7 @@ class SectionReader final : public Fields {
   /// The entry of a key, which is thereby known; null where it is absent, with a complaint where it is
   /// required.
   const SceneEntry* entry(const char* key, Presence presence, const std::string& expected);
+  bool has_errors() const;
   Location location_of(const SceneEntry& entry) const;
   std::string path_of(const std::string& key) const;
   void complain(const Location& location, const std::string& message);
@@ -46,7 +49,7 @@ class SectionReader final : public Fields {
   const SceneNode& node_;
   Location location_;
   std::vector<Complaint>& complaints_;
-  std::size_t complaints_before_;
+  std::ptrdiff_t complaints_before_;
   std::vector<std::string> known_;
 };
 

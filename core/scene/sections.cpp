@@ -2,10 +2,16 @@
 
 #include <fmt/format.h>
 
+#include "core/scene/plausible.hpp"
+
 namespace talus::core {
 
 void describe(Fields& fields, TimeScene& time) {
-  fields.required("end", time.end, {.unit = "s", .range = positive, .help = "simulated time of the run"});
+  fields.required("end", time.end,
+                  {.unit = "s",
+                   .range = positive,
+                   .help = "simulated time of the run",
+                   .plausible = plausible::duration});
   fields.optional("step", time.step,
                   {.unit = "s",
                    .range = positive,
@@ -15,9 +21,10 @@ void describe(Fields& fields, TimeScene& time) {
 }
 
 void describe(Fields& fields, ProbeScene& probe) {
-  fields.optional(
-      "at", probe.at,
-      {.unit = "m", .help = "a point; the nearest node of the structure at the reference state is watched"});
+  fields.optional("at", probe.at,
+                  {.unit = "m",
+                   .help = "a point; the nearest node of the structure at the reference state is watched, "
+                           "which may be an element's length away"});
   fields.optional("part", probe.part,
                   {.help = "look only among this part's nodes; without `at`, the part as a whole"});
   fields.optional("rock", probe.rock, {.help = "the name of a rock or sphere"});
@@ -30,6 +37,15 @@ void describe(Fields& fields, ProbeScene& probe) {
 }
 
 void describe(Fields&, StageTimesScene&) {}
+
+void describe(Fields& fields, EnergyErrorScene& energy_error) {
+  fields.with_default(
+      "warning", energy_error.warning,
+      {.range = positive, .help = "share of the run's impact from which on a warning is given"});
+  fields.with_default("error", energy_error.error,
+                      {.range = positive, .help = "share from which on the run ends as failed"});
+  fields.rule(energy_error.warning <= energy_error.error, "warning", "must not be above `error`");
+}
 
 void describe(Fields& fields, OutputScene& output) {
   fields.with_default("every", output.every,
@@ -44,6 +60,8 @@ void describe(Fields& fields, OutputScene& output) {
   fields.section("stage_times", output.stage_times,
                  "columns of probes.csv with the seconds that each stage of the steps has taken so far; "
                  "`talus explain` of the result then shows its share");
+  fields.section("energy_error", output.energy_error_scene,
+                 "how far the energy balance may be off, as shares of the energy that the run is about");
 }
 
 }  // namespace talus::core

@@ -6,6 +6,8 @@
 #include <numeric>
 #include <utility>
 
+#include "core/utf8.hpp"
+
 namespace talus::core {
 
 std::string text(const Place& place) {
@@ -29,6 +31,7 @@ SceneEntry* SceneNode::find(const std::string& key) {
 std::string quoted(const std::string& text) {
   constexpr std::size_t longest = 60;
   std::string line = text.substr(0, longest);
+  if (text.size() > longest) line.resize(utf8_length(line));  // cut between characters
   std::replace_if(
       line.begin(), line.end(), [](unsigned char c) { return c < ' ' || c == 127; }, ' ');
   return fmt::format("'{}{}'", line, text.size() > longest ? "..." : "");

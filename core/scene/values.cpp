@@ -7,6 +7,7 @@
 #include <optional>
 #include <string_view>
 
+#include "core/input_file.hpp"
 #include "core/units/units.hpp"
 
 namespace talus::core {
@@ -21,6 +22,10 @@ struct Reading {
   void complain(const SceneNode& node, const std::string& message) {
     complaints.push_back(
         complaint(node.place.line ? node.place : location.place, location.key_path, message));
+  }
+  void warn(const SceneNode& node, const std::string& message) {
+    complain(node, message);
+    complaints.back().warning = true;
   }
   Reading item(std::size_t index) const {
     return {{fmt::format("{}[{}]", location.key_path, index), location.place}, traits, complaints};
@@ -44,6 +49,24 @@ bool check_range(double value, const SceneNode& node, Reading& reading) {
       node, fmt::format("must be {}, but is {}{}", range_text(reading.traits.range, reading.traits.unit),
                         node.scalar, unit));
   return false;
+}
+
+/// @param claimed the value says what it is: a unit is written, or its key has none
+bool check_plausible(double value, bool claimed, const SceneNode& node, Reading& reading) {
+  const auto& [usual, possible, hint] = reading.traits.plausible;
+  const std::string unit = reading.traits.unit;
+  const double size = std::abs(value);
+  const bool can_be = in_range(size, possible) || size == 0;
+  if (can_be && (in_range(size, usual) || size == 0)) return true;
+  const std::string given = unit.empty() || !claimed ? "" : quoted(node.scalar) + " ";
+  const bool refused = !can_be && claimed;
+  if (refused)
+    reading.complain(node, fmt::format("{}is {}, but must be {}: {}", given, readable(value, unit),
+                                       range_text(possible, unit), hint));
+  else
+    reading.warn(node, fmt::format("{}is {}, which is unusual (usually {}): {}", given, readable(value, unit),
+                                   range_text(can_be ? usual : possible, unit), hint));
+  return !refused;
 }
 
 std::string_view trimmed(std::string_view text) {
@@ -82,9 +105,12 @@ std::optional<double> converted(double number, const std::string& unit, const Sc
       reading.complain(node, fmt::format("expects {}, got {}; {} is no known unit", wanted,
                                          quoted(node.scalar), quoted(unit)));
       break;
-    case UnitConversion::Outcome::other_dimension:
-      reading.complain(node, fmt::format("expects {}, got {}", wanted, quoted(node.scalar)));
+    case UnitConversion::Outcome::other_dimension: {
+      const std::string kind = other_kind({number, unit}, reading.traits.unit);
+      reading.complain(node, fmt::format("expects {}, got {}{}{}", wanted, quoted(node.scalar),
+                                         kind.empty() ? "" : ", which is ", kind));
       break;
+    }
   }
   return std::nullopt;
 }
@@ -111,7 +137,8 @@ bool read(const SceneNode& node, double& value, Reading reading) {
         node, fmt::format("expects {}, got {}, which no double can hold", wanted, quoted(node.scalar)));
     return false;
   }
-  if (!check_range(*number, node, reading)) return false;
+  const bool claimed = !unit.empty() || *reading.traits.unit == 0;
+  if (!check_range(*number, node, reading) || !check_plausible(*number, claimed, node, reading)) return false;
   value = *number;
   return true;
 }
@@ -155,9 +182,8 @@ bool read(const SceneNode& node, std::filesystem::path& value, Reading reading) 
   const std::filesystem::path folder =
       node.place.file ? node.place.file->parent_path() : std::filesystem::path();
   const std::filesystem::path path = folder / node.scalar;
-  std::error_code error;
-  if (!std::filesystem::exists(path, error)) {
-    reading.complain(node, fmt::format("no such file: {}", quoted(path.string())));
+  if (const std::string fault = input_file_fault(path); !fault.empty()) {
+    reading.complain(node, fault);
     return false;
   }
   value = path;

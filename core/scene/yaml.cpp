@@ -11,6 +11,8 @@
 #include <unordered_map>
 
 #include "core/scene/tree.hpp"
+#include "core/scene/yaml_hints.hpp"
+#include "core/utf8.hpp"
 
 namespace talus::core {
 namespace {
@@ -37,7 +39,10 @@ class TreeBuilder final : public YAML::EventHandler {
   Place place(const YAML::Mark& mark) const { return {file_, mark.line + 1, mark.column + 1}; }
 
   void OnDocumentStart(const YAML::Mark& mark) override {
-    if (root_) throw Stop{place(mark), "a second YAML document starts here; a scene is one document"};
+    if (root_)
+      throw Stop{
+          place(mark),
+          "a second YAML document starts here; a scene is one document: put it into a file of its own"};
   }
   void OnDocumentEnd() override {}
   void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override {
@@ -91,7 +96,8 @@ class TreeBuilder final : public YAML::EventHandler {
 
   void refuse_tag(const YAML::Mark& mark, const std::string& tag) const {
     if (!tag.empty() && tag != "?" && tag != "!")
-      throw Stop{place(mark), fmt::format("scenes use no YAML tags such as {}", quoted(tag))};
+      throw Stop{place(mark),
+                 fmt::format("scenes use no YAML tags such as {}: write the value without", quoted(tag))};
   }
   void count(std::size_t more, const Place& where) {
     count_ += more;
@@ -129,6 +135,10 @@ class TreeBuilder final : public YAML::EventHandler {
     } else if (!parent.key) {
       if (node.kind != SceneNode::Kind::scalar)
         throw Stop{node.place, "a key must be a word, not " + shown(node)};
+      if (node.scalar == "<<")
+        throw Stop{node.place,
+                   "merge keys are not read: write the keys out, or put them into a scene that this one "
+                   "`extends`"};
       parent.key.emplace(std::move(node.scalar), node.place);
     } else {
       parent.node.entries.push_back({std::move(parent.key->first), parent.key->second, 0, std::move(node)});
@@ -183,17 +193,32 @@ void check_brackets(const std::string& text, const Place& file) {
   }
 }
 
+/// Names of other encodings would end the run later, where a result is written.
+void check_encoding(const std::string& text, const Place& file) {
+  const std::size_t good = utf8_length(text);
+  if (good == text.size()) return;
+  const auto line = std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(good), '\n');
+  const auto start = good == 0 ? std::string::npos : text.rfind('\n', good - 1);
+  const std::size_t column = good - (start == std::string::npos ? 0 : start + 1);
+  throw Stop{{file.file, static_cast<int>(line) + 1, static_cast<int>(column) + 1},
+             fmt::format("the byte 0x{:02x} is no UTF-8 (Latin-1?): save the file as UTF-8",
+                         static_cast<unsigned char>(text[good]))};
+}
+
 void check_text(const std::string& text, const Place& file) {
   if (text.size() > largest_text)
     throw Stop{file, fmt::format("is larger than {} MB, which no scene is", largest_text >> 20)};
   const auto is_blank = [](unsigned char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; };
   if (std::all_of(text.begin(), text.end(), is_blank)) throw Stop{file, "is empty"};
+  if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff"))
+    throw Stop{file, "is UTF-16: save the file as UTF-8"};
   const auto is_control = [&](unsigned char c) { return (c < ' ' && !is_blank(c)) || c == 127; };
   const auto control = std::find_if(text.begin(), text.end(), is_control);
   if (control != text.end()) {
     const int line = 1 + static_cast<int>(std::count(text.begin(), control, '\n'));
     throw Stop{{file.file, line, 0}, "holds bytes that are no text"};
   }
+  check_encoding(text, file);
   check_brackets(text, file);
 }
 
@@ -207,12 +232,12 @@ Complaint syntax_complaint(const YAML::Exception& error, const std::string& text
                            const TreeBuilder& builder) {
   if (error.mark.is_null()) return complaint(builder.whole_file(), {}, "is not YAML: " + error.msg);
   std::istringstream lines(text);
-  std::string line;
-  for (int i = 0; i <= error.mark.line; ++i) std::getline(lines, line);
-  const bool tab = line.substr(0, line.find_first_not_of(" \t")).find('\t') != std::string::npos;
-  return complaint(
-      builder.place(error.mark), {},
-      "is not YAML: " + error.msg + (tab ? " (this line is indented with a tab; YAML wants spaces)" : ""));
+  std::string line, before;
+  for (int i = 0; i <= error.mark.line; ++i) {
+    before = line;
+    std::getline(lines, line);
+  }
+  return complaint(builder.place(error.mark), {}, "is not YAML: " + error.msg + yaml_hint(line, before));
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <numbers>
 #include <optional>
 #include <stdexcept>
 #include <string_view>
@@ -23,12 +24,57 @@ using UnitPointer = std::unique_ptr<ut_unit, decltype(&ut_free)>;
 using SystemPointer = std::unique_ptr<ut_system, decltype(&ut_free_system)>;
 using ConverterPointer = std::unique_ptr<cv_converter, decltype(&cv_free)>;
 
+/// Powers of the basic units a unit is made of, N being {kilogram: 1, meter: 1, second: -2}. The radian is one
+/// of them, although UDUNITS converts it to 1: an angle is no number, and a frequency no angular velocity.
+using Dimension = std::map<std::string, int>;
+constexpr const char* radian = "radian";
+
+/// Collects a Dimension, as UDUNITS shows a unit's inside only to visitors.
+class DimensionVisitor {
+ public:
+  /// Nothing for units that are no power of others: logarithms such as dB, dates.
+  static std::optional<Dimension> of(const ut_unit* unit) {
+    static const ut_visitor visitor{visit_basic, visit_product, visit_galilean, visit_timestamp,
+                                    visit_logarithmic};
+    Dimension dimension;
+    if (ut_accept_visitor(unit, &visitor, &dimension) != UT_SUCCESS) return std::nullopt;
+    return dimension;
+  }
+
+ private:
+  static Dimension& collected(void* argument) { return *static_cast<Dimension*>(argument); }
+  static std::string name_of(const ut_unit* basic) {
+    const char* name = ut_get_name(basic, UT_ASCII);
+    if (!name) name = ut_get_symbol(basic, UT_ASCII);
+    return name ? name : "";
+  }
+  static ut_status visit_basic(const ut_unit* unit, void* argument) {
+    collected(argument)[name_of(unit)] = 1;
+    return UT_SUCCESS;
+  }
+  static ut_status visit_product(const ut_unit*, int count, const ut_unit* const* units, const int* powers,
+                                 void* argument) {
+    for (int i = 0; i < count; ++i)
+      if (powers[i] != 0) collected(argument)[name_of(units[i])] = powers[i];
+    return UT_SUCCESS;
+  }
+  static ut_status visit_galilean(const ut_unit*, double, const ut_unit* underlying, double, void* argument) {
+    const auto inner = of(underlying);
+    if (!inner) return UT_MEANINGLESS;
+    collected(argument) = *inner;
+    return UT_SUCCESS;
+  }
+  static ut_status visit_timestamp(const ut_unit*, const ut_unit*, double, void*) { return UT_MEANINGLESS; }
+  static ut_status visit_logarithmic(const ut_unit*, double, const ut_unit*, void*) { return UT_MEANINGLESS; }
+};
+
 /// UDUNITS' parser keeps global state, so one lock guards every call; found factors are remembered.
 class UnitSystem {
  public:
   UnitSystem() : system_(read_system(), &ut_free_system) {
-    const UnitPointer degree = parse("degree");
+    const UnitPointer degree = parse("degree"), turn = parse("turn");
     ut_map_name_to_unit("deg", UT_ASCII, degree.get());
+    ut_map_name_to_unit("rev", UT_ASCII, turn.get());
   }
 
   UnitConversion factor(const std::string& unit, const std::string& wanted) {
@@ -36,6 +82,19 @@ class UnitSystem {
     const auto [found, is_new] = factors_.try_emplace({unit, wanted});
     if (is_new) found->second = find_factor(unit, wanted);
     return found->second;
+  }
+  /// What UDUNITS multiplies with, to which radians are numbers. @pre both are units that it converts
+  double ratio(const std::string& unit, const std::string& to) {
+    const std::lock_guard lock(mutex_);
+    const UnitPointer from = parse(unit), target = parse(to);
+    const ConverterPointer converter(ut_get_converter(from.get(), target.get()), &cv_free);
+    return cv_convert_double(converter.get(), 1);
+  }
+  /// Nothing for what is no unit.
+  std::optional<Dimension> dimension(const std::string& unit) {
+    const std::lock_guard lock(mutex_);
+    const UnitPointer parsed = parse(unit);
+    return parsed ? DimensionVisitor::of(parsed.get()) : std::nullopt;
   }
 
  private:
@@ -52,7 +111,10 @@ class UnitSystem {
   UnitConversion find_factor(const std::string& unit, const std::string& wanted) const {
     const UnitPointer from = parse(unit), to = parse(wanted);
     if (!to) throw std::logic_error("'" + wanted + "' is no unit");
-    if (!from) return {UnitConversion::Outcome::unknown_unit, 0};
+    const auto dimension = from ? DimensionVisitor::of(from.get()) : std::nullopt;
+    if (!dimension) return {UnitConversion::Outcome::unknown_unit, 0};
+    // Asked before the converter, which takes radians for numbers and turns a time into a frequency.
+    if (dimension != DimensionVisitor::of(to.get())) return {UnitConversion::Outcome::other_dimension, 0};
     const ConverterPointer converter(ut_get_converter(from.get(), to.get()), &cv_free);
     if (!converter) return {UnitConversion::Outcome::other_dimension, 0};
     if (cv_convert_double(converter.get(), 0) != 0)
@@ -131,6 +193,25 @@ UnitConversion convert(const Quantity& given, const std::string& wanted) {
   if (!given.unit.empty() && !looks_like_unit(given.unit)) return {};
   const UnitConversion found = unit_system().factor(given.unit, wanted);
   return {found.outcome, found.outcome == UnitConversion::Outcome::ok ? scaled(given.value, found.value) : 0};
+}
+
+std::string other_kind(const Quantity& given, const std::string& wanted) {
+  if (!given.unit.empty() && !looks_like_unit(given.unit)) return {};
+  auto dimension = unit_system().dimension(given.unit), target = unit_system().dimension(wanted);
+  if (!dimension || !target) return {};
+  const int turns = (*dimension)[radian], wanted_turns = (*target)[radian];
+  dimension->erase(radian), target->erase(radian);
+  if (turns == wanted_turns || dimension != target) return {};
+  const bool rate = *dimension == Dimension{{"second", -1}};
+  if (!rate && !dimension->empty()) return {};
+  const double size = given.value * unit_system().ratio(given.unit, rate ? "1/s" : "1");
+  if (rate && turns == 0)
+    return fmt::format("a frequency; where turns are meant, write '{:.6g} turn/s' or '{:.6g} rad/s'", size,
+                       size * 2 * std::numbers::pi);
+  if (rate) return turns == 1 ? "an angular velocity" : "";
+  return turns == 0   ? "a number"
+         : turns == 1 ? fmt::format("an angle; its tangent is {:.6g}", std::tan(size))
+                      : "";
 }
 
 std::optional<double> parse_quantity(const std::string& text, const std::string& wanted) {

@@ -3,7 +3,9 @@
 #include <optional>
 #include <string>
 
-/// Units of measure as scenes write them, through UDUNITS-2 ("mm", "N/mm^2", "1/s", "deg").
+/// Units of measure as scenes write them, through UDUNITS-2 ("mm", "N/mm^2", "1/s", "deg"). Angles, angular
+/// velocities, frequencies and plain numbers are four kinds that never turn into each other, although all are
+/// powers of seconds to UDUNITS.
 namespace talus::core {
 
 struct UnitConversion {
@@ -23,6 +25,10 @@ struct Quantity {
 /// ("3 m") are unknown on purpose. Safe to call from several threads. Exact where the factor is a power of
 /// ten: 50 us is 5e-5 s to the bit.
 UnitConversion convert(const Quantity& given, const std::string& wanted);
+
+/// What a value is that differs from the wanted kind by an angle alone, and what to write where that is clear:
+/// "an angle; its tangent is 0.57735" for 30 deg where a number is wanted. Empty for any other value.
+std::string other_kind(const Quantity& given, const std::string& wanted);
 
 /// A number with or without a unit, "50 us" or "0.2", in the unit `wanted`; nothing where the text is no such
 /// value.

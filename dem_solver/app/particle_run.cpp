@@ -1,8 +1,37 @@
 #include "dem_solver/app/particle_run.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
 #include "core/parallel.hpp"
 
 namespace talus::dem {
+
+namespace {
+
+/// A probe of a rock that is not there would be a column that is silently missing.
+void check_probes(const RunScene& scene, const core::SceneFile& file, core::SceneReader& reader) {
+  std::vector<std::string> names;
+  for (const auto& [name, sphere] : scene.particles.spheres) names.push_back(name);
+  for (const auto& [name, rock] : scene.particles.rocks) names.push_back(name);
+  if (!scene.output) return;
+  for (const auto& [name, probe] : scene.output->probes) {
+    const auto complain = [&](const char* key, const std::string& message) {
+      reader.complain({.file = file.path().string(),
+                       .key_path = fmt::format("output.probes.{}{}", name, key),
+                       .message = message});
+    };
+    if (probe.rock && std::ranges::find(names, *probe.rock) == names.end())
+      complain(".rock", fmt::format("there is no sphere or rock '{}'; known: {}", *probe.rock,
+                                    names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "))));
+    if (!probe.rock && !file.has_section("structure"))
+      complain("", "watches a structure, and the scene has none");
+  }
+}
+
+}  // namespace
 
 RunScene read_run_scene(const core::SceneFile& file) {
   core::SceneReader reader(file);
@@ -10,6 +39,7 @@ RunScene read_run_scene(const core::SceneFile& file) {
   scene.time = reader.required<core::TimeScene>("time");
   scene.output = reader.optional<core::OutputScene>("output");
   scene.particles = reader.required<ParticlesScene>("particles");
+  if (!reader.has_complaints()) check_probes(scene, file, reader);
   reader.finish();
   return scene;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/scene/plausible.hpp"
 #include "interface_mesh/net.hpp"
 #include "interface_mesh/surface_checks.hpp"
 
@@ -79,8 +80,11 @@ void describe(core::Fields& fields, BoundaryScene& boundary) {
   fields.optional("wire_radius", boundary.wire_radius,
                   {.unit = "m",
                    .range = core::not_negative,
-                   .help = "of segments; 0: their axes are touched; absent: that of the net, or 0"});
-  fields.optional("velocity", boundary.velocity, {.unit = "m/s", .help = "constant; absent: at rest"});
+                   .help = "of segments; 0: their axes are touched; absent: that of the net, or 0",
+                   .plausible = core::plausible::wire_radius});
+  fields.optional(
+      "velocity", boundary.velocity,
+      {.unit = "m/s", .help = "constant; absent: at rest", .plausible = core::plausible::velocity});
   fields.one_of(boundary.shape, mesh::net_alternatives({{"sheet", "a flat panel of triangles"},
                                                         {"mesh_file", "a mesh made elsewhere"},
                                                         {"height_grid", "terrain from a grid of heights"},

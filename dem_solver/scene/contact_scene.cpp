@@ -1,5 +1,7 @@
 #include "dem_solver/scene/contact_scene.hpp"
 
+#include "core/scene/plausible.hpp"
+
 namespace talus::dem {
 
 namespace {
@@ -12,9 +14,13 @@ void describe(core::Fields& fields, MaterialScene& material) {
   fields.optional("density", material.density,
                   {.unit = "kg/m^3",
                    .range = core::positive,
-                   .help = "needed for spheres and rocks; boundaries have none"});
+                   .help = "needed for spheres and rocks; boundaries have none",
+                   .plausible = core::plausible::density});
   fields.required("youngs_modulus", material.youngs_modulus,
-                  {.unit = "Pa", .range = core::positive, .help = "of the contact"});
+                  {.unit = "Pa",
+                   .range = core::positive,
+                   .help = "of the contact",
+                   .plausible = core::plausible::contact_modulus});
   fields.required("poissons_ratio", material.poissons_ratio,
                   {.range = poisson_range, .help = "of the contact"});
 }
@@ -25,7 +31,10 @@ void describe(core::Fields& fields, HertzScene& law) {
 
 void describe(core::Fields& fields, LinearScene& law) {
   fields.required("stiffness", law.stiffness,
-                  {.unit = "N/m", .range = core::positive, .help = "normal force over overlap"});
+                  {.unit = "N/m",
+                   .range = core::positive,
+                   .help = "normal force over overlap",
+                   .plausible = core::plausible::stiffness});
   fields.with_default("tangential_ratio", law.tangential_ratio,
                       {.range = core::positive, .help = "tangential over normal stiffness"});
   fields.required("restitution", law.restitution, {.range = restitution_range, .help = restitution_help});
@@ -33,11 +42,17 @@ void describe(core::Fields& fields, LinearScene& law) {
 
 void describe(core::Fields& fields, FrictionScene& friction) {
   fields.optional("coefficient", friction.coefficient,
-                  {.range = core::not_negative, .help = "Coulomb's coefficient, at rest and sliding alike"});
+                  {.range = core::not_negative,
+                   .help = "Coulomb's coefficient, at rest and sliding alike",
+                   .plausible = core::plausible::friction});
   fields.optional("at_rest", friction.at_rest,
-                  {.range = core::not_negative, .help = "coefficient at rest, instead of `coefficient`"});
+                  {.range = core::not_negative,
+                   .help = "coefficient at rest, instead of `coefficient`",
+                   .plausible = core::plausible::friction});
   fields.optional("sliding", friction.sliding,
-                  {.range = core::not_negative, .help = "coefficient of fast sliding"});
+                  {.range = core::not_negative,
+                   .help = "coefficient of fast sliding",
+                   .plausible = core::plausible::friction});
   fields.optional(
       "decay_speed", friction.decay_speed,
       {.unit = "m/s", .range = core::positive, .help = "sliding speed at which 63 % of the fall is done"});
@@ -49,13 +64,16 @@ void describe(core::Fields& fields, FrictionScene& friction) {
 
 void describe(core::Fields& fields, ConstantTorqueScene& rolling) {
   fields.required("coefficient", rolling.coefficient,
-                  {.range = core::not_negative, .help = "torque over normal force and reduced radius"});
+                  {.range = core::not_negative,
+                   .help = "torque over normal force and reduced radius",
+                   .plausible = core::plausible::friction});
 }
 
 void describe(core::Fields& fields, ElasticPlasticScene& rolling) {
-  fields.required(
-      "coefficient", rolling.coefficient,
-      {.range = core::not_negative, .help = "largest torque over normal force and reduced radius"});
+  fields.required("coefficient", rolling.coefficient,
+                  {.range = core::not_negative,
+                   .help = "largest torque over normal force and reduced radius",
+                   .plausible = core::plausible::friction});
   fields.with_default("damping", rolling.damping,
                       {.range = core::not_negative, .help = "rolling damping over critical"});
 }

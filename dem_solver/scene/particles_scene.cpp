@@ -4,17 +4,25 @@
 
 #include <algorithm>
 
+#include "core/scene/plausible.hpp"
 #include "dem_solver/scene/scene_rules.hpp"
 
 namespace talus::dem {
 
 void describe(core::Fields& fields, SphereScene& sphere) {
   fields.required("material", sphere.material, {.help = "contact material; its density gives the mass"});
-  fields.required("radius", sphere.radius, {.unit = "m", .range = core::positive, .help = "of the sphere"});
+  fields.required("radius", sphere.radius,
+                  {.unit = "m",
+                   .range = core::positive,
+                   .help = "of the sphere",
+                   .plausible = core::plausible::rock_size});
   fields.required("at", sphere.at, {.unit = "m", .help = "the centre at time 0"});
-  fields.with_default("velocity", sphere.velocity, {.unit = "m/s", .help = "at time 0"});
+  fields.with_default("velocity", sphere.velocity,
+                      {.unit = "m/s", .help = "at time 0", .plausible = core::plausible::velocity});
   fields.with_default("spin", sphere.spin,
-                      {.unit = "rad/s", .help = "angular velocity at time 0; needs friction somewhere"});
+                      {.unit = "rad/s",
+                       .help = "angular velocity at time 0; needs friction somewhere",
+                       .plausible = core::plausible::spin});
 }
 
 void describe(core::Fields& fields, ImplicitContactScene& contact) {
@@ -30,7 +38,9 @@ void describe(core::Fields& fields, ImplicitContactScene& contact) {
 void describe(core::Fields& fields, ParticlesScene& particles) {
   fields.optional("solver", particles.solver, {.help = "program that takes this side; absent: dem_solver"});
   fields.optional("gravity", particles.gravity,
-                  {.unit = "m/s^2", .help = "acceleration of free fall; absent: none"});
+                  {.unit = "m/s^2",
+                   .help = "acceleration of free fall; absent: none",
+                   .plausible = core::plausible::gravity});
   fields.map("materials", particles.materials, "contact materials, by name", 1);
   fields.list("contacts", particles.contacts,
               "what happens between two materials; every pair that can meet needs an entry");

@@ -6,6 +6,7 @@
 
 #include "core/errors.hpp"
 #include "core/program/log.hpp"
+#include "core/scene/plausible.hpp"
 #include "dem_solver/rocks/ball_union.hpp"
 #include "dem_solver/rocks/closed_surface.hpp"
 #include "dem_solver/rocks/polyhedron.hpp"
@@ -16,7 +17,11 @@ namespace talus::dem {
 
 void describe(core::Fields& fields, SpheresShapeScene& shape) {
   fields.required("centres", shape.centres, {.unit = "m", .help = "of the spheres, in any frame"});
-  fields.required("radii", shape.radii, {.unit = "m", .range = core::positive, .help = "one a sphere"});
+  fields.required("radii", shape.radii,
+                  {.unit = "m",
+                   .range = core::positive,
+                   .help = "one a sphere",
+                   .plausible = core::plausible::rock_size});
   fields.rule(!shape.centres.empty() && shape.centres.size() == shape.radii.size(), "radii",
               "needs as many radii as centres");
 }
@@ -24,10 +29,15 @@ void describe(core::Fields& fields, SpheresShapeScene& shape) {
 void describe(core::Fields& fields, BlockScene& block) {
   constexpr core::Range cut_range{.low = 0, .high = 0.5, .low_included = false, .high_included = false};
   fields.optional("edge", block.edge,
-                  {.unit = "m", .range = core::positive, .help = "of the cube before its corners are cut"});
-  fields.optional(
-      "mass", block.mass,
-      {.unit = "kg", .range = core::positive, .help = "gives the edge, with the material's density"});
+                  {.unit = "m",
+                   .range = core::positive,
+                   .help = "of the cube before its corners are cut",
+                   .plausible = core::plausible::rock_size});
+  fields.optional("mass", block.mass,
+                  {.unit = "kg",
+                   .range = core::positive,
+                   .help = "gives the edge, with the material's density",
+                   .plausible = core::plausible::rock_mass});
   fields.with_default("cut", block.cut,
                       {.range = cut_range, .help = "part of the edge that is cut off at each corner"});
   fields.optional(
@@ -51,10 +61,15 @@ void describe(core::Fields& fields, RockScene& rock) {
                              {"block", "a cube without its corners, like the blocks of type tests"},
                              {"surface", "a closed surface from a file, filled with spheres"}});
   fields.required("at", rock.at, {.unit = "m", .help = "the centre of mass at time 0"});
-  fields.with_default("velocity", rock.velocity, {.unit = "m/s", .help = "at time 0"});
-  fields.with_default("spin", rock.spin, {.unit = "rad/s", .help = "angular velocity at time 0"});
+  fields.with_default("velocity", rock.velocity,
+                      {.unit = "m/s", .help = "at time 0", .plausible = core::plausible::velocity});
+  fields.with_default(
+      "spin", rock.spin,
+      {.unit = "rad/s", .help = "angular velocity at time 0", .plausible = core::plausible::spin});
   fields.with_default("turned", rock.turned,
-                      {.unit = "rad", .help = "rotation vector that turns the shape before time 0"});
+                      {.unit = "rad",
+                       .help = "rotation vector that turns the shape before time 0",
+                       .plausible = core::plausible::rotation});
 }
 
 namespace {

@@ -6,6 +6,8 @@
 #include <random>
 #include <string>
 
+#include "core/scene/plausible.hpp"
+
 namespace talus::dem {
 
 namespace {
@@ -42,10 +44,14 @@ void describe(core::Fields& fields, StreamScene& stream) {
   fields.required("material", stream.material, {.help = "contact material; its density gives the masses"});
   fields.required("count", stream.count, {.range = {.low = 1, .high = 1e8}, .help = "number of spheres"});
   fields.required("radius", stream.radius,
-                  {.unit = "m", .range = core::positive, .help = "[smallest, largest], or [one] for all"});
+                  {.unit = "m",
+                   .range = core::positive,
+                   .help = "[smallest, largest], or [one] for all",
+                   .plausible = core::plausible::rock_size});
   fields.required("low", stream.low, {.unit = "m", .help = "lower corner of the box they start in"});
   fields.required("high", stream.high, {.unit = "m", .help = "upper corner"});
-  fields.with_default("velocity", stream.velocity, {.unit = "m/s", .help = "of all, at time 0"});
+  fields.with_default("velocity", stream.velocity,
+                      {.unit = "m/s", .help = "of all, at time 0", .plausible = core::plausible::velocity});
   fields.with_default("seed", stream.seed,
                       {.range = core::not_negative, .help = "of the random places and sizes"});
   const bool sizes =

@@ -5,7 +5,10 @@
 #include <algorithm>
 
 #include "core/errors.hpp"
+#include "core/program/log.hpp"
+#include "core/units/units.hpp"
 #include "fem_solver/output/part_fields.hpp"
+#include "fem_solver/output/watched_node.hpp"
 
 namespace talus::fem {
 namespace {
@@ -17,17 +20,19 @@ const Part& find_part(const Model& model, const std::string& probe, const std::s
   return *found;
 }
 
-Index nearest_node(const Model& model, const Vector3& point, const Part* part) {
-  Index nearest = part ? part->nodes.front() : 0;
-  const auto consider = [&](Index node) {
-    if ((model.position(node) - point).squaredNorm() < (model.position(nearest) - point).squaredNorm())
-      nearest = node;
-  };
-  if (part)
-    std::ranges::for_each(part->nodes, consider);
-  else
-    for (Index node = 0; node < model.nodes(); ++node) consider(node);
-  return nearest;
+/// Where rounded coordinates or a node a little to the side are meant, the result says which node it is; a point
+/// further away than any element there reaches was meant to be elsewhere.
+WatchedNode node_of_probe(const Model& model, const std::string& probe, const Vector3& point,
+                          const Part* part) {
+  const WatchedNode watched = watched_node(model, part, point);
+  if (watched.distance > watched.reach)
+    throw core::ConfigError(
+        fmt::format("output.probes.{}.at: no node is near: {}; the longest element there has {}", probe,
+                    description(model, watched), core::readable(watched.reach, "m")));
+  constexpr double round_off = 1e-6;  // of the element, as for the nodes of loads and supports
+  if (watched.distance > round_off * watched.reach)
+    core::log_info(fmt::format("probe {} watches {}", probe, description(model, watched)));
+  return watched;
 }
 
 using Values = std::span<const double> (Integrator::*)() const;
@@ -38,7 +43,8 @@ void add_vector(std::vector<ProbeColumn>& columns, const std::string& name, cons
   const auto at = static_cast<std::size_t>(3 * node);
   for (std::size_t c = 0; c < 3; ++c)
     columns.push_back({fmt::format("{}_{}_{}", name, "xyz"[c], unit),
-                       [=](const Integrator& run) { return (run.*values)()[at + c]; }});
+                       [=](const Integrator& run) { return (run.*values)()[at + c]; },
+                       {}});
   columns.push_back({fmt::format("{}_{}", name, unit),
                      [=](const Integrator& run) { return Vector3::Map(&(run.*values)()[at]).norm(); }});
 }
@@ -101,9 +107,10 @@ std::vector<ProbeColumn> probe_columns(const Model& model, const core::OutputSce
     std::vector<ProbeColumn> columns;
     const Part* part = probe.part ? &find_part(model, name, *probe.part) : nullptr;
     if (probe.at) {
-      const Index node = nearest_node(model, *probe.at, part);
-      add_vector(columns, name + ".displacement", "m", &Integrator::displacement, node);
-      add_vector(columns, name + ".velocity", "m_per_s", &Integrator::velocity, node);
+      const WatchedNode watched = node_of_probe(model, name, *probe.at, part);
+      add_vector(columns, name + ".displacement", "m", &Integrator::displacement, watched.node);
+      add_vector(columns, name + ".velocity", "m_per_s", &Integrator::velocity, watched.node);
+      for (ProbeColumn& column : columns) column.watches = description(model, watched);
     } else {
       add_part_columns(columns, name, *part);
     }

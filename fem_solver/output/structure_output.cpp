@@ -43,7 +43,7 @@ StructureOutput::StructureOutput(const Model& model, Integrator& integrator, con
                                  const core::StageClock* clock)
     : model_(model), integrator_(integrator), clock_(clock), probes_(probe_columns(model, scene)) {
   choose_ledger_lines();
-  for (const auto& probe : probes_) description_.probes.push_back({probe.name});
+  for (const auto& probe : probes_) description_.probes.push_back({probe.name, probe.watches});
   if (clock_) clock_->describe(description_.probes);
   for (const auto& line : ledger_) description_.ledger.push_back(line.description);
   for (const auto& part : model.parts) description_.groups.push_back(group_of(part));

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/scene/plausible.hpp"
+
 namespace talus::fem {
 namespace {
 
@@ -60,12 +62,17 @@ void describe(core::Fields& fields, LoadScene& load) {
 void describe(core::Fields& fields, PointMassScene& mass) {
   describe_selection(fields, mass.where);
   fields.required("mass", mass.mass,
-                  {.unit = "kg", .range = core::positive, .help = "added to each of the nodes"});
+                  {.unit = "kg",
+                   .range = core::positive,
+                   .help = "added to each of the nodes",
+                   .plausible = core::plausible::rock_mass});
 }
 
 void describe(core::Fields& fields, InitialVelocityScene& initial) {
   describe_selection(fields, initial.where);
-  fields.required("velocity", initial.velocity, {.unit = "m/s", .help = "of each of the nodes at the start"});
+  fields.required(
+      "velocity", initial.velocity,
+      {.unit = "m/s", .help = "of each of the nodes at the start", .plausible = core::plausible::velocity});
 }
 
 }  // namespace talus::fem

@@ -4,20 +4,29 @@
 
 #include <cmath>
 
+#include "core/scene/plausible.hpp"
+
 namespace talus::fem {
 namespace {
 
 void describe_axial(core::Fields& fields, AxialScene& axial) {
-  fields.required("area", axial.area, {.unit = "m^2", .range = core::positive, .help = "cross-section"});
+  fields.required(
+      "area", axial.area,
+      {.unit = "m^2", .range = core::positive, .help = "cross-section", .plausible = core::plausible::area});
   fields.required("density", axial.density,
-                  {.unit = "kg/m^3", .range = core::positive, .help = "mass over volume"});
+                  {.unit = "kg/m^3",
+                   .range = core::positive,
+                   .help = "mass over volume",
+                   .plausible = core::plausible::density});
   fields.required("youngs_modulus", axial.youngs_modulus,
                   {.unit = "Pa",
                    .range = core::positive,
-                   .help = "between Green-Lagrange strain and second Piola-Kirchhoff stress"});
-  fields.with_default(
-      "prestress", axial.prestress,
-      {.unit = "Pa", .help = "second Piola-Kirchhoff stress of the reference state, tension positive"});
+                   .help = "between Green-Lagrange strain and second Piola-Kirchhoff stress",
+                   .plausible = core::plausible::modulus});
+  fields.with_default("prestress", axial.prestress,
+                      {.unit = "Pa",
+                       .help = "second Piola-Kirchhoff stress of the reference state, tension positive",
+                       .plausible = core::plausible::prestress});
 }
 
 }  // namespace
@@ -37,26 +46,34 @@ void describe(core::Fields& fields, SlidingCableScene& rope) {
        .range = core::positive,
        .help = "segments shorter than this hold the slider as its fitting would; a hundredth of the "
                "shortest segment where absent"});
-  fields.optional(
-      "friction", rope.friction,
-      {.range = core::positive, .help = "coefficient of the capstan equation; none where absent"});
+  fields.optional("friction", rope.friction,
+                  {.range = core::positive,
+                   .help = "coefficient of the capstan equation; none where absent",
+                   .plausible = core::plausible::friction});
 }
 
 void describe(core::Fields& fields, ElasticPlasticCableScene& rope) {
   describe_axial(fields, rope);
-  fields.required(
-      "yield_stress", rope.yield_stress,
-      {.unit = "Pa", .range = core::positive, .help = "second Piola-Kirchhoff stress of first yield"});
-  fields.with_default(
-      "hardening", rope.hardening,
-      {.unit = "Pa", .range = core::not_negative, .help = "rise of the yield stress over plastic strain"});
+  fields.required("yield_stress", rope.yield_stress,
+                  {.unit = "Pa",
+                   .range = core::positive,
+                   .help = "second Piola-Kirchhoff stress of first yield",
+                   .plausible = core::plausible::strength});
+  fields.with_default("hardening", rope.hardening,
+                      {.unit = "Pa",
+                       .range = core::not_negative,
+                       .help = "rise of the yield stress over plastic strain",
+                       .plausible = core::plausible::strength});
   fields.rule(!(rope.prestress > rope.yield_stress), "prestress",
               fmt::format("must not exceed yield_stress, but is {} Pa", rope.prestress));
 }
 
 void describe(core::Fields& fields, EndStopScene& stop) {
   fields.required("stiffness", stop.stiffness,
-                  {.unit = "N/m", .range = core::positive, .help = "past the end of travel"});
+                  {.unit = "N/m",
+                   .range = core::positive,
+                   .help = "past the end of travel",
+                   .plausible = core::plausible::stiffness});
   fields.required("width", stop.width,
                   {.unit = "m", .range = core::positive, .help = "of the elongation over which it comes in"});
 }
@@ -73,24 +90,37 @@ void describe(core::Fields& fields, BrakeScene& brake) {
 
 void describe(core::Fields& fields, IsotropicSheet& sheet) {
   fields.required("youngs_modulus", sheet.youngs_modulus,
-                  {.unit = "Pa", .range = core::positive, .help = "in plane stress"});
+                  {.unit = "Pa",
+                   .range = core::positive,
+                   .help = "in plane stress",
+                   .plausible = core::plausible::modulus});
   fields.required("poissons_ratio", sheet.poissons_ratio,
                   {.range = {.low = -1, .high = 1, .low_included = false, .high_included = false},
-                   .help = "contraction across a pull"});
+                   .help = "contraction across a pull",
+                   .plausible = core::plausible::contraction});
 }
 
 void describe(core::Fields& fields, OrthotropicScene& scene) {
   OrthotropicSheet& sheet = scene.sheet;
   fields.required("youngs_modulus_x", sheet.youngs_modulus_x,
-                  {.unit = "Pa", .range = core::positive, .help = "along the material axis"});
+                  {.unit = "Pa",
+                   .range = core::positive,
+                   .help = "along the material axis",
+                   .plausible = core::plausible::modulus});
   fields.required("youngs_modulus_y", sheet.youngs_modulus_y,
-                  {.unit = "Pa", .range = core::positive, .help = "across the material axis"});
+                  {.unit = "Pa",
+                   .range = core::positive,
+                   .help = "across the material axis",
+                   .plausible = core::plausible::modulus});
   fields.required("poissons_ratio_xy", sheet.poissons_ratio_xy,
                   {.help = "contraction along x under a pull along y: C12 = v_xy E_x/(1 - v_xy v_yx)"});
   fields.optional("poissons_ratio_yx", scene.poissons_ratio_yx,
                   {.help = "the other one, checked: v_xy/E_y = v_yx/E_x"});
   fields.required("shear_modulus", sheet.shear_modulus,
-                  {.unit = "Pa", .range = core::positive, .help = "between the material axes"});
+                  {.unit = "Pa",
+                   .range = core::positive,
+                   .help = "between the material axes",
+                   .plausible = core::plausible::modulus});
   const double limit = std::sqrt(sheet.youngs_modulus_y / sheet.youngs_modulus_x);
   fields.rule(
       !(std::abs(sheet.poissons_ratio_xy) >= limit), "poissons_ratio_xy",
@@ -106,9 +136,14 @@ void describe(core::Fields& fields, OrthotropicScene& scene) {
 }
 
 void describe(core::Fields& fields, MembranePrestressScene& prestress) {
-  fields.with_default("xx", prestress.stress.xx, {.unit = "Pa", .help = "along the material axis"});
-  fields.with_default("yy", prestress.stress.yy, {.unit = "Pa", .help = "across the material axis"});
-  fields.with_default("xy", prestress.stress.xy, {.unit = "Pa", .help = "shear"});
+  fields.with_default(
+      "xx", prestress.stress.xx,
+      {.unit = "Pa", .help = "along the material axis", .plausible = core::plausible::prestress});
+  fields.with_default(
+      "yy", prestress.stress.yy,
+      {.unit = "Pa", .help = "across the material axis", .plausible = core::plausible::prestress});
+  fields.with_default("xy", prestress.stress.xy,
+                      {.unit = "Pa", .help = "shear", .plausible = core::plausible::prestress});
 }
 
 void describe(core::Fields& fields, TensionFieldScene& field) {
@@ -116,21 +151,54 @@ void describe(core::Fields& fields, TensionFieldScene& field) {
                 "iterated: exact, no compression; principal: across the smaller principal trial stress");
 }
 
+namespace {
+
+bool is_isotropic(const OrthotropicSheet& sheet) {
+  constexpr double written = 1e-6;  // of a modulus: the digits of a scene
+  const auto near = [](double a, double b) { return std::abs(a - b) <= written * std::abs(b); };
+  return near(sheet.youngs_modulus_x, sheet.youngs_modulus_y) &&
+         near(sheet.shear_modulus, sheet.youngs_modulus_x / (2 * (1 + sheet.poissons_ratio_xy)));
+}
+
+/// What of a sheet has a direction; empty where nothing has.
+std::string directed(const MembraneScene& membrane) {
+  if (const auto* scene = std::get_if<OrthotropicScene>(&membrane.elasticity);
+      scene && !is_isotropic(scene->sheet))
+    return "the stiffness";
+  const PlaneStress<double>& stress = membrane.prestress.stress;
+  return stress.xx != stress.yy || stress.xy != 0 ? "the prestress" : "";
+}
+
+}  // namespace
+
 void describe(core::Fields& fields, MembraneScene& membrane) {
   fields.required("thickness", membrane.thickness,
-                  {.unit = "m", .range = core::positive, .help = "of the homogenised sheet"});
+                  {.unit = "m",
+                   .range = core::positive,
+                   .help = "of the homogenised sheet",
+                   .plausible = core::plausible::thickness});
   fields.required("density", membrane.density,
-                  {.unit = "kg/m^3", .range = core::positive, .help = "mass over area times thickness"});
+                  {.unit = "kg/m^3",
+                   .range = core::positive,
+                   .help = "mass over area times thickness",
+                   .plausible = core::plausible::density});
   fields.one_of(membrane.elasticity, {{"isotropic", "the same stiffness in all directions"},
                                       {"orthotropic", "two directions, after Münsch and Reinhardt"}});
   fields.optional(
       "material_axis", membrane.material_axis,
-      {.help = "x direction of the material, projected on each triangle; its first edge where absent"});
+      {.help = "x direction of the material, projected on each triangle; absent: no direction is special"});
   std::optional<MembranePrestressScene> prestress;
   fields.section("prestress", prestress, "second Piola-Kirchhoff stress of the reference state");
   if (prestress) membrane.prestress = *prestress;
   fields.section("tension_field", membrane.tension_field,
                  "the sheet wrinkles or goes slack instead of carrying compression");
+  fields.rule(!membrane.material_axis || membrane.material_axis->norm() > 0, "material_axis",
+              "must not be zero");
+  const std::string what = directed(membrane);
+  fields.rule(membrane.material_axis || what.empty(), "material_axis",
+              fmt::format("needs `material_axis`, as {} differs by direction: write the x direction of the "
+                          "material, such as `material_axis: [1, 0, 0]`",
+                          what));
 }
 
 void describe_element(core::Fields& fields, ElementScene& element) {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/errors.hpp"
+#include "core/scene/plausible.hpp"
 #include "fem_solver/constraints/nearest_segment.hpp"
 #include "fem_solver/model/rope_batch.hpp"
 #include "fem_solver/scene/node_sets.hpp"
@@ -69,7 +70,8 @@ void describe(core::Fields& fields, PenaltySlideScene& penalty) {
   fields.required("stiffness", penalty.stiffness,
                   {.unit = "N/m",
                    .range = core::positive,
-                   .help = "of the spring of each node; leaves a gap of force over stiffness"});
+                   .help = "of the spring of each node; leaves a gap of force over stiffness",
+                   .plausible = core::plausible::stiffness});
 }
 void describe(core::Fields&, ConstraintSlideScene&) {}
 

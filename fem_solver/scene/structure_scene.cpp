@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/scene/plausible.hpp"
+
 namespace talus::fem {
 
 void describe(core::Fields& fields, PartScene& part) {
@@ -67,7 +69,9 @@ void describe(core::Fields& fields, StructureScene& structure) {
   fields.list("loads", structure.loads, "forces on nodes");
   fields.list("point_masses", structure.point_masses, "masses on nodes");
   fields.list("initial_velocities", structure.initial_velocities, "velocities of nodes at the start");
-  fields.optional("gravity", structure.gravity, {.unit = "m/s^2", .help = "acceleration of free fall"});
+  fields.optional(
+      "gravity", structure.gravity,
+      {.unit = "m/s^2", .help = "acceleration of free fall", .plausible = core::plausible::gravity});
   fields.section("damping", structure.damping, "Rayleigh damping of all parts");
   fields.one_of(structure.method,
                 {{"explicit", "central differences; what a scene gets that names no method"},

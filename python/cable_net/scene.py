@@ -114,5 +114,17 @@ def _read_probes(scene: talus.Section, net: Net) -> list[Probe]:
     output = scene.section("output") if "output" in scene else None
     if output is None or "probes" not in output:
         return []
-    points = [(name, probe.numbers("at", "m", 3)) for name, probe in output.section("probes").sections() if "at" in probe]
-    return [Probe(name, int(np.argmin(np.linalg.norm(net.positions - point, axis=1)))) for name, point in points]
+    return [_probe(name, probe, net) for name, probe in output.section("probes").sections() if "at" in probe]
+
+
+def _probe(name: str, section: talus.Section, net: Net) -> Probe:
+    """The node nearest to a point, which must not be further away than the wires there are long."""
+    point = section.numbers("at", "m", 3)
+    distances = np.linalg.norm(net.positions - point, axis=1)
+    node = int(np.argmin(distances))
+    ends = net.positions[net.wires[(net.wires == node).any(axis=1)]]
+    longest = np.linalg.norm(ends[:, 0] - ends[:, 1], axis=1).max()
+    if distances[node] > longest:
+        raise section.error("at", f"no node is near: the nearest, {node}, is {distances[node]:.6g} m away, more than its wires "
+                                  f"of {longest:.6g} m are long")
+    return Probe(name, node)

@@ -1,8 +1,14 @@
+#include <sys/stat.h>
+
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <chrono>
 #include <filesystem>
 #include <fstream>
 
+#include "core/scene/tree.hpp"
+#include "core/utf8.hpp"
+#include "tests/support/folder.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace talus {
@@ -155,7 +161,7 @@ TEST_CASE("a file that is missing, a folder or empty is refused in one sentence"
     return {};
   };
   CHECK(load_error("no/such/scene.yaml") == "no such file: 'no/such/scene.yaml'");
-  CHECK(load_error("/") == "'/' is a folder, not a scene");
+  CHECK(load_error("/") == "'/' is a folder, not a file");
   CHECK(text_error("") == "scene.yaml: is empty");
   CHECK(text_error(" \n\t\n") == "scene.yaml: is empty");
   CHECK(text_error("# nothing\n") == "scene.yaml: holds no keys, only comments or blanks");
@@ -176,10 +182,81 @@ TEST_CASE("a text that is no YAML, or no scene, is refused with its place") {
   CHECK(text_error("- 1\n- 2\n") ==
         "scene.yaml:1:1: is no scene: expects lines of 'key: value', found a list of 2");
   CHECK(text_error("a: 1\n---\nb: 2\n") ==
-        "scene.yaml:2:1: a second YAML document starts here; a scene is one document");
+        "scene.yaml:2:1: a second YAML document starts here; a scene is one document: put it into a file of "
+        "its own");
   CHECK(text_error("a: !!python/object 1\n") ==
-        "scene.yaml:1:4: scenes use no YAML tags such as 'tag:yaml.org,2002:python/object'");
+        "scene.yaml:1:4: scenes use no YAML tags such as 'tag:yaml.org,2002:python/object': write the value "
+        "without");
   CHECK(text_error("[a, b]: 1\n") == "scene.yaml:1:1: a key must be a word, not a list or a map");
+}
+
+TEST_CASE("bytes that are no UTF-8 are named with their line, wherever they stand") {
+  const std::string save = " is no UTF-8 (Latin-1?): save the file as UTF-8";
+  CHECK(text_error("time: {end: 1}\ntitle: Felsbl\xf6"
+                   "cke\n") == "scene.yaml:2:14: the byte 0xf6" + save);
+  CHECK(text_error("# \xe9t\xe9\n") == "scene.yaml:1:3: the byte 0xe9" + save);
+  CHECK(text_error("\xe9: 1\n") == "scene.yaml:1:1: the byte 0xe9" + save);
+  // Cut short, overlong, half of a surrogate pair, above U+10FFFF [RFC 3629].
+  for (const std::string bad : {"\xe2\x82", "\xc0\xaf", "\xed\xa0\x80", "\xf4\x90\x80\x80"})
+    CHECK_THAT(text_error("a: " + bad), Catch::EndsWith(save));
+  CHECK(text_error("title: Felsbl\xc3\xb6"
+                   "cke \xe2\x82\xac \xf0\x9f\x97\xbb\n")
+            .empty());
+  CHECK(text_error(std::string("\xff\xfet\0", 4)) == "scene.yaml: is UTF-16: save the file as UTF-8");
+}
+
+TEST_CASE("a message never cuts a character in two") {
+  std::string umlauts;
+  for (int i = 0; i < 100; ++i) umlauts += "\xc3\xb6";
+  for (const char* shift : {"", "a"}) {
+    const std::string message = core::quoted(shift + umlauts);
+    CHECK(core::utf8_length(message) == message.size());
+  }
+}
+
+TEST_CASE("a text that YAML misreads is shown in quotes") {
+  const auto hint = [](const std::string& text) {
+    const std::string message = text_error(text);
+    return message.substr(std::min(message.find(" ("), message.size()));
+  };
+  CHECK(hint("title: Net: with a rock\n") ==
+        " (a text with a colon needs quotes: title: \"Net: with a rock\")");
+  CHECK(hint("title: Net: with a rock  # old\n") ==
+        " (a text with a colon needs quotes: title: \"Net: with a rock\")");
+  CHECK(hint("title: the \"big\" one:\n") ==
+        " (a text with a colon needs quotes: title: 'the \"big\" one:')");
+  CHECK(hint("title: @net\n") == " (a text that starts with @ needs quotes: title: \"@net\")");
+  CHECK(hint("title: *net\n") == " (a text that starts with * needs quotes: title: \"*net\")");
+  CHECK_THAT(hint("title: 'it's'\n"), Catch::Contains("quotes of the other kind"));
+  CHECK_THAT(hint("time: {end: 1, note: a: b}\n"), Catch::Contains("a text with a colon needs quotes"));
+  CHECK_THAT(hint("time:\n  end:1\n  step: 2\n"), Catch::Contains("no blank after its colon"));
+}
+
+TEST_CASE("merge keys get one message that says what to write instead") {
+  CHECK(text_error("base: &b {end: 1}\ntime:\n  <<: *b\n  step: 2\n") ==
+        "scene.yaml:3:3: merge keys are not read: write the keys out, or put them into a scene that this one "
+        "`extends`");
+}
+
+TEST_CASE("pipes and devices are refused at once as scene, base and file of a key") {
+  test::Folder folder("scene_errors");
+  const std::filesystem::path pipe = folder / "pipe";
+  REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
+  folder.add("scene.yaml", "extends: pipe\n").add("device.yaml", "extends: /dev/zero\n");
+  const auto load_error = [](const std::filesystem::path& path) -> std::string {
+    try {
+      core::SceneFile::load(path);
+    } catch (const core::ConfigError& error) {
+      return error.what();
+    }
+    return {};
+  };
+  CHECK(load_error(pipe) == "'" + pipe.string() + "' is a named pipe, not a file");
+  CHECK(load_error("/dev/zero") == "'/dev/zero' is a device, not a file");
+  CHECK(load_error(folder / "scene.yaml") == (folder / "scene.yaml").string() + ":1:10: extends: '" +
+                                                 pipe.string() + "' is a named pipe, not a file");
+  CHECK_THAT(load_error(folder / "device.yaml"),
+             Catch::EndsWith("extends: '/dev/zero' is a device, not a file"));
 }
 
 TEST_CASE("ten megabytes of brackets end in one clean complaint") {

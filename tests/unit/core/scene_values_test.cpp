@@ -83,6 +83,78 @@ TEST_CASE("a unit on a plain number is refused") {
   CHECK(error("ratio: 0.2 m") == "scene.yaml:1:18: section.ratio: expects a plain number, got '0.2 m'");
 }
 
+TEST_CASE("an angle where a number belongs is refused with its tangent") {
+  CHECK(
+      error("ratio: 30 deg") ==
+      "scene.yaml:1:18: section.ratio: expects a plain number, got '30 deg', which is an angle; its tangent "
+      "is 0.57735");
+}
+
+namespace {
+
+struct Meant {
+  double density = 0, friction = 0;
+  std::vector<double> strengths;
+};
+constexpr core::Plausible density{.usual = {.low = 30}, .possible = {.low = 1e-3}, .hint = "g/cm^3"};
+constexpr core::Plausible friction{.usual = {.high = 2}, .possible = {.high = 5}, .hint = "a tangent"};
+constexpr core::Plausible strength{.possible = {.low = 1000}, .hint = "MPa, not mPa"};
+void describe(core::Fields& fields, Meant& meant) {
+  fields.with_default("density", meant.density, {.unit = "kg/m^3", .help = "h", .plausible = density});
+  fields.with_default("friction", meant.friction, {.help = "h", .plausible = friction});
+  fields.with_default("strengths", meant.strengths, {.unit = "Pa", .help = "h", .plausible = strength});
+}
+
+/// Complaints about a value, warnings marked as such.
+std::string judged(const std::string& inner) {
+  const auto file = core::SceneFile::parse("section: {" + inner + "}", "scene.yaml");
+  std::vector<core::Complaint> complaints;
+  Meant meant;
+  file.read(
+      "section", core::Presence::required, [&](core::Fields& fields) { describe(fields, meant); },
+      complaints);
+  std::string text;
+  for (const auto& complaint : complaints)
+    text += (complaint.warning ? "warning " : "error ") + complaint.text() + "\n";
+  return text;
+}
+
+}  // namespace
+
+TEST_CASE("a value that says what it is and cannot mean it is refused with the reason") {
+  CHECK(judged("strengths: [1770 MPa, 1770 mPa]") ==
+        "error scene.yaml:1:33: section.strengths[1]: '1770 mPa' is 1.77 Pa, but must be at least 1000 Pa: "
+        "MPa, not mPa\n");
+  CHECK(judged("friction: 30") ==
+        "error scene.yaml:1:21: section.friction: is 30, but must be at most 5: a tangent\n");
+  CHECK(judged("friction: -30") ==
+        "error scene.yaml:1:21: section.friction: is -30, but must be at most 5: a tangent\n");
+}
+
+TEST_CASE("an unusual value, or one that another system of units explains, is read with a warning") {
+  const std::string unusual = "which is unusual (usually at least 30 kg/m^3): g/cm^3\n";
+  CHECK(judged("density: 2.7") == "warning scene.yaml:1:20: section.density: is 2.7 kg/m^3, " + unusual);
+  CHECK(judged("density: 2.7 kg/m^3") ==
+        "warning scene.yaml:1:20: section.density: '2.7 kg/m^3' is 2.7 kg/m^3, " + unusual);
+  CHECK(
+      judged("density: 2.7e-9") ==
+      "warning scene.yaml:1:20: section.density: is 2.7e-09 kg/m^3, which is unusual (usually at least 0.001 "
+      "kg/m^3): g/cm^3\n");
+  CHECK(judged("friction: 3") ==
+        "warning scene.yaml:1:21: section.friction: is 3, which is unusual (usually at most 2): a tangent\n");
+}
+
+TEST_CASE("nothing is said about plausible values, and zero is one") {
+  CHECK(judged("density: 2.7 g/cm^3, friction: 0.6, strengths: [1 GPa, 1 kPa]").empty());
+  CHECK(judged("density: 0, friction: 0, strengths: [0, 0 Pa]").empty());
+}
+
+TEST_CASE("a warning neither ends the reading of a scene nor keeps its rules from being judged") {
+  Meant meant;
+  CHECK(complaints_about("section: {density: 2.7}", meant).empty());
+  CHECK(meant.density == 2.7);
+}
+
 TEST_CASE("words, flags, counts and lists are read") {
   const auto values =
       read("flag: true, word: chain link, count: -3, lengths: [1, 2 mm], counts: [1, 2], words: [a, b]");
@@ -129,6 +201,8 @@ TEST_CASE("a file named in a scene is found from the folder of the scene that na
   core::SceneReader reader(file, {"section"});
   CHECK(reader.required<Values>("section").mesh == folder / "parts/rock.stl");
   CHECK_NOTHROW(reader.finish());
+  CHECK(error("mesh: /dev/null") == "scene.yaml:1:17: section.mesh: '/dev/null' is a device, not a file");
+  CHECK(error("mesh: /") == "scene.yaml:1:17: section.mesh: '/' is a folder, not a file");
   CHECK(error("mesh: nothing.stl") == "scene.yaml:1:17: section.mesh: no such file: 'nothing.stl'");
 }
 

@@ -55,6 +55,42 @@ TEST_CASE("a unit of another dimension, an unknown one and an offset one are tol
   CHECK(outcome("m 20", "m") == Outcome::unknown_unit);
 }
 
+TEST_CASE("angles, angular velocities, frequencies and plain numbers never turn into each other") {
+  const std::vector<std::string> angles{"rad", "deg", "arcmin", "turn", "mrad"};
+  const std::vector<std::string> spins{"rad/s", "rpm", "turn/s", "rev/s", "deg/min"};
+  const std::vector<std::string> rates{"Hz", "1/s", "kHz", "1/min"};
+  const std::vector<std::string> numbers{"1", "%", "mm/m"};
+  const auto refused = [](const std::vector<std::string>& units, const std::vector<const char*>& wanted) {
+    for (const auto& unit : units)
+      for (const char* other : wanted) {
+        INFO(unit << " for " << other);
+        CHECK(outcome(unit == "1" ? "" : unit, other) == Outcome::other_dimension);
+      }
+  };
+  refused(angles, {"", "rad/s", "1/s", "m"});
+  refused(spins, {"", "rad", "1/s"});
+  refused(rates, {"", "rad", "rad/s"});
+  refused(numbers, {"rad", "rad/s", "1/s"});
+  for (const auto& unit : angles) CHECK(outcome(unit, "rad") == Outcome::ok);
+  for (const auto& unit : spins) CHECK(outcome(unit, "rad/s") == Outcome::ok);
+  for (const auto& unit : rates) CHECK(outcome(unit, "1/s") == Outcome::ok);
+  CHECK(value(3, "turn/s", "rad/s") == Approx(6 * std::acos(-1.0)).epsilon(1e-14));
+}
+
+TEST_CASE("a time is no rate, although UDUNITS would take its inverse") {
+  CHECK(outcome("s", "1/s") == Outcome::other_dimension);
+  CHECK(outcome("Hz", "s") == Outcome::other_dimension);
+}
+
+TEST_CASE("a value of the wrong kind is told what it is and what to write") {
+  CHECK(core::other_kind({30, "deg"}, "") == "an angle; its tangent is 0.57735");
+  CHECK(core::other_kind({3, "Hz"}, "rad/s") ==
+        "a frequency; where turns are meant, write '3 turn/s' or '18.8496 rad/s'");
+  CHECK(core::other_kind({3, "rpm"}, "1/s") == "an angular velocity");
+  CHECK(core::other_kind({20, "%"}, "rad") == "a number");
+  for (const char* unit : {"kg", "sr", "smoot", "rad"}) CHECK(core::other_kind({1, unit}, "rad").empty());
+}
+
 TEST_CASE("several threads may convert at the same time") {
   std::vector<double> found(8);
   std::vector<std::thread> threads;

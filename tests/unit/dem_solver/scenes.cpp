@@ -1,6 +1,8 @@
 #include <array>
 #include <catch2/catch.hpp>
+#include <cmath>
 
+#include "dem_solver/app/particle_run.hpp"
 #include "dem_solver/app/standalone.hpp"
 #include "tests/support/folder.hpp"
 #include "tests/support/scenes.hpp"
@@ -71,6 +73,61 @@ TEST_CASE("Bad particle scenes are refused with a message that says what to do")
              Contains("the box has room for 125 spheres"));
   CHECK_THAT(text("  gates: {probes: {point: [0, 0, 0], normal: [0, 0, 1]}}\n"),
              Contains("particles.gates") && Contains("may not be named `probes`"));
+}
+
+TEST_CASE("Angles as coefficients, frequencies as spins and other lost units of particles are refused") {
+  using Catch::Contains;
+  dem::ParticlesScene scene;
+  const auto text = [&](const std::string& friction, const std::string& spin, const std::string& material) {
+    return test::complaints_about(
+        "particles:\n"
+        "  materials: {rock: {" +
+            material +
+            "}}\n"
+            "  contacts: [{between: [rock, rock], hertz: {restitution: 0.5}, "
+            "friction: {coefficient: " +
+            friction +
+            "}}]\n"
+            "  spheres: {a: {material: rock, radius: 10 cm, at: [0, 0, 0], spin: [0, 0, " +
+            spin + "]}}\n",
+        scene, "particles");
+  };
+  const std::string rock = "density: 2.7 g/cm^3, youngs_modulus: 1e7, poissons_ratio: 0.2";
+  REQUIRE(text("0.5", "3 rpm", rock).empty());
+  CHECK(scene.spheres[0].second.spin.z() == Approx(2 * std::acos(-1.0) * 3 / 60).epsilon(1e-14));
+  CHECK_THAT(text("30 deg", "0", rock), Contains("coefficient: expects a plain number, got '30 deg'") &&
+                                            Contains("its tangent is 0.57735"));
+  CHECK_THAT(text("30", "0", rock), Contains("coefficient: is 30, but must be at most 5"));
+  for (const char* rate : {"3 Hz", "3 1/s", "180 1/min"})
+    CHECK_THAT(text("0.5", rate, rock), Contains("a frequency; where turns are meant, write '3 turn/s'"));
+  CHECK_THAT(text("0.5", "3 deg", rock), Contains("spin[2]: expects an angular velocity"));
+  CHECK_THAT(text("0.5", "0", "density: 2700, youngs_modulus: 1e7, poissons_ratio: 14 deg"),
+             Contains("poissons_ratio: expects a plain number, got '14 deg', which is an angle"));
+  CHECK_THAT(text("0.5", "0", "density: 2700, youngs_modulus: 50000 mPa, poissons_ratio: 0.2"),
+             Contains("youngs_modulus: '50000 mPa' is 50 Pa, but must be") && Contains("written MPa"));
+  CHECK_THAT(text("0.5", "0", "density: 2700 t/mm^3, youngs_modulus: 1e7, poissons_ratio: 0.2"),
+             Contains("density: '2700 t/mm^3' is"));
+}
+
+TEST_CASE("A probe of a rock that is not there, or of a structure that is not, is refused") {
+  const auto error = [](const std::string& probe) -> std::string {
+    try {
+      dem::read_run_scene(core::SceneFile::parse(
+          "time: {end: 1 s, step: 1 ms}\n" +
+              scene_with("  contacts: [{between: [rock, rock], hertz: {restitution: 0.5}}]\n"
+                         "  spheres: {boulder: {material: rock, radius: 0.1, at: [0, 0, 0]}}\n") +
+              "output: {probes: {one: " + probe + "}}\n",
+          "scene.yaml"));
+    } catch (const core::ConfigError& refused) {
+      return refused.what();
+    }
+    return {};
+  };
+  CHECK(error("{rock: boulder}").empty());
+  CHECK(error("{rock: bolder}") ==
+        "scene.yaml: output.probes.one.rock: there is no sphere or rock 'bolder'; known: boulder");
+  CHECK(error("{at: [0, 0, 0]}") ==
+        "scene.yaml: output.probes.one: watches a structure, and the scene has none");
 }
 
 namespace {

@@ -46,7 +46,7 @@ TEST_CASE("bad membranes, ropes and brakes get complaints that name the key and 
   };
   const std::string moduli = "youngs_modulus_x: 4 GPa, youngs_modulus_y: 1 GPa, shear_modulus: 1 MPa, ";
   const auto orthotropic = [&](const std::string& poisson) {
-    return part(sheet, membrane("orthotropic: {" + moduli + poisson + "}"));
+    return part(sheet, membrane("orthotropic: {" + moduli + poisson + "}", ", material_axis: [1, 0, 0]"));
   };
   check(orthotropic("poissons_ratio_xy: 0.1, poissons_ratio_yx: 0.1"),
         "must be v_xy E_x/E_y = 0.4 for a symmetric stiffness, but is 0.1");
@@ -67,6 +67,59 @@ TEST_CASE("bad membranes, ropes and brakes get complaints that name the key and 
         "must not exceed yield_stress");
   check(part(line, "brake: {table: [[0.1, 100], [0.2, 300]], mass_per_length: 1}"), "structure.parts.part");
   check(part(line, "brake: {table: [], mass_per_length: 1}"), "structure.parts.part");
+}
+
+TEST_CASE("a sheet whose stiffness or prestress differs by direction is refused without its axis") {
+  const auto check = [](const std::string& elasticity, const std::string& others,
+                        const std::string& directed) {
+    const std::string without = complaint(part(sheet, membrane(elasticity, others)));
+    INFO(elasticity << others);
+    if (directed.empty()) {
+      CHECK(without == "no complaint");
+      return;
+    }
+    CHECK_THAT(without, Catch::Contains("structure.parts.part.membrane: needs `material_axis`, as the " +
+                                        directed + " differs by direction"));
+    CHECK(complaint(part(sheet, membrane(elasticity, others + ", material_axis: [0, 1, 0]"))) ==
+          "no complaint");
+  };
+  const auto orthotropic = [](const std::string& x, const std::string& y, const std::string& shear) {
+    return "orthotropic: {youngs_modulus_x: " + x + ", youngs_modulus_y: " + y +
+           ", poissons_ratio_xy: 0.25, shear_modulus: " + shear + "}";
+  };
+  const std::string isotropic = "isotropic: {youngs_modulus: 1 GPa, poissons_ratio: 0.25}";
+  check(orthotropic("1 GPa", "0.5 GPa", "0.4 GPa"), "", "stiffness");
+  check(orthotropic("1 GPa", "1 GPa", "50 MPa"), "", "stiffness");  // as a square net: its diagonal is soft
+  check(isotropic, ", prestress: {xx: 1 MPa}", "prestress");
+  check(isotropic, ", prestress: {xx: 1 MPa, yy: 2 MPa}", "prestress");
+  check(isotropic, ", prestress: {xx: 1 MPa, yy: 1 MPa, xy: 1 kPa}", "prestress");
+  check(isotropic, "", "");
+  check(isotropic, ", prestress: {xx: 1 MPa, yy: 1 MPa}", "");
+  check(orthotropic("1 GPa", "1 GPa", "0.4 GPa"), "", "");  // G = E/(2 (1 + v)): isotropic in other words
+  CHECK_THAT(complaint(part(sheet, membrane(isotropic, ", material_axis: [0, 0, 0]"))),
+             Catch::Contains("must not be zero"));
+}
+
+TEST_CASE("stresses, moduli and areas of a lost unit are refused by every element that has them") {
+  const auto check = [](const std::string& element, const std::string& expected) {
+    CHECK_THAT(complaint(part(element.starts_with("membrane") ? sheet : line, element)),
+               Catch::Contains(expected) && Catch::Contains("megapascals are written MPa"));
+  };
+  const std::string size = "area: 1 cm^2, density: 8000, ";
+  check("bar: {" + size + "youngs_modulus: 1770 mPa}", "youngs_modulus: '1770 mPa' is 1.77 Pa");
+  check("cable: {" + size + "youngs_modulus: 100000 mPa}", "youngs_modulus: '100000 mPa' is 100 Pa");
+  check("sliding_cable: {" + section + ", prestress: 1000 mPa}", "prestress: '1000 mPa' is 1 Pa");
+  check("elastic_plastic_cable: {" + section + ", yield_stress: 1770 mPa}", "yield_stress: '1770 mPa'");
+  check(membrane("isotropic: {youngs_modulus: 200 mPa, poissons_ratio: 0.3}"), "youngs_modulus: '200 mPa'");
+  check(membrane("orthotropic: {youngs_modulus_x: 4 GPa, youngs_modulus_y: 1 GPa, shear_modulus: 50 mPa, "
+                 "poissons_ratio_xy: 0.1}"),
+        "shear_modulus: '50 mPa'");
+  CHECK_THAT(complaint(part(line, "cable: {area: 12.6 km^2, density: 8000, youngs_modulus: 100 GPa}")),
+             Catch::Contains("area: '12.6 km^2'") && Catch::Contains("written mm^2"));
+}
+
+TEST_CASE("a structure without mass, and one in other units, are read") {
+  CHECK(complaint(part(line, "bar: {area: 1, density: 1e-6, youngs_modulus: 10}")) == "no complaint");
 }
 
 namespace {

@@ -51,6 +51,9 @@ class Scenes(unittest.TestCase):
         self.assertEqual([probe.name for probe in model.probes], ["middle"])
         np.testing.assert_allclose(model.net.positions[model.probes[0].node], (1.5, 1.1, 0))
 
+    def test_a_probe_far_from_every_node_is_refused_with_its_distance(self):
+        self.assertIn("output.probes.middle.at: no node is near: the nearest, 34, is 1410.61 m away", self.refused("1.4 m, 1.1 m", "1000, 1000"))
+
     def test_an_unknown_key_is_named_with_its_path(self):
         self.assertIn("structure.parts.net.cable.colour: is a key this solver does not know",
                       self.refused("area:", "colour: red, area:"))
