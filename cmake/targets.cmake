@@ -19,10 +19,19 @@ function(talus_program name)
   target_link_libraries(${name} PRIVATE ${ARG_LINK})
 endfunction()
 
-# talus_test(name SOURCES ... LINK ... LABEL unit|verification|coupled|faults [TIMEOUT seconds]): one Catch2 program, one ctest entry
-# a file of tests, so that a failure is named and files run side by side.
+# Sanitizers slow programs ten- to fiftyfold: what a test may take there.
+function(talus_time_limit variable seconds)
+  if(TALUS_SANITIZE)
+    math(EXPR seconds "10 * ${seconds}")
+  endif()
+  set(${variable} ${seconds} PARENT_SCOPE)
+endfunction()
+
+# talus_test(name SOURCES ... LINK ... LABEL unit|verification|coupled|faults [THREADS] [TIMEOUT seconds]): one Catch2 program, one ctest entry
+# a file of tests, so that a failure is named and files run side by side. THREADS: it uses some, so the thread sanitizer is to see it. The targets
+# unit_tests, coupled_tests, ... build all programs of a label.
 function(talus_test name)
-  cmake_parse_arguments(ARG "SERIAL" "LABEL;TIMEOUT" "SOURCES;LINK" ${ARGN})
+  cmake_parse_arguments(ARG "SERIAL;THREADS" "LABEL;TIMEOUT" "SOURCES;LINK" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
   talus_settings(${name})
   target_link_libraries(${name} PRIVATE talus_test_main ${ARG_LINK})
@@ -33,8 +42,13 @@ function(talus_test name)
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 120)
   endif()
-  if(ARG_LABEL STREQUAL "unit")
-    add_dependencies(unit_tests ${name})
+  if(NOT TARGET ${ARG_LABEL}_tests)
+    add_custom_target(${ARG_LABEL}_tests)
+  endif()
+  add_dependencies(${ARG_LABEL}_tests ${name})
+  talus_time_limit(ARG_TIMEOUT ${ARG_TIMEOUT})
+  if(ARG_THREADS)
+    list(APPEND ARG_LABEL threads)
   endif()
   # Sanitizers slow programs tenfold: cases that gather statistics or take 1e5 steps are left to the other builds.
   if(TALUS_SANITIZE)

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <new>
+#include <system_error>
+
 namespace talus::core {
 namespace {
 
@@ -45,10 +48,29 @@ TransportError::TransportError(Details details)
 NumericalError::NumericalError(Details details)
     : std::runtime_error(sentence(details)), details_(std::move(details)) {}
 
+FileError::FileError(const std::filesystem::path& path, const std::string& action, int error)
+    : MachineError(fmt::format("'{}' cannot be {}: {}", path.string(), action,
+                               std::generic_category().message(error))) {}
+
+std::string exit_code_help() {
+  return "Exit codes:\n"
+         "  0  done\n"
+         "  1  an error nobody expected\n"
+         "  2  the scene or the command line is wrong\n"
+         "  3  a solver or the coupler died, hangs, or does not fit the other\n"
+         "  4  the computation broke down: not finite, not converged\n"
+         "  5  stopped by Ctrl-C, SIGTERM, SIGHUP, SIGUSR1 or SIGUSR2; everything so far is written\n"
+         "  6  a regression or study found a difference\n"
+         "  7  the machine: disk full or read-only, no permission, too little memory or shared memory";
+}
+
 ExitCode exit_code(const std::exception& error) noexcept {
   if (dynamic_cast<const ConfigError*>(&error)) return ExitCode::config;
   if (dynamic_cast<const TransportError*>(&error)) return ExitCode::transport;
   if (dynamic_cast<const NumericalError*>(&error)) return ExitCode::numerical;
+  if (dynamic_cast<const MachineError*>(&error) || dynamic_cast<const std::bad_alloc*>(&error) ||
+      dynamic_cast<const std::filesystem::filesystem_error*>(&error))
+    return ExitCode::machine;
   return ExitCode::bug;
 }
 

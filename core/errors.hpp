@@ -1,12 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
-/// The four ways a run can fail, apart because a different person has to act. Assertions are for our own
-/// bugs.
+/// The ways a run can fail, apart because a different person has to act. Assertions are for our own bugs.
 namespace talus::core {
 
 /// Exit codes of every Talus program.
@@ -16,9 +16,12 @@ enum class ExitCode : int {
   config = 2,       ///< ConfigError or a wrong command line
   transport = 3,    ///< TransportError
   numerical = 4,    ///< NumericalError
-  interrupted = 5,  ///< Ctrl-C or SIGTERM; everything is written
+  interrupted = 5,  ///< Ctrl-C, SIGTERM or the like; everything is written
   regression = 6,   ///< a regression or study found a difference
+  machine = 7,      ///< MachineError: disk, memory, permission
 };
+/// All of them with their meanings, a line each, for help pages.
+std::string exit_code_help();
 
 /// One complaint about a scene, tied to the place in the file it speaks of.
 struct Complaint {
@@ -83,6 +86,21 @@ class NumericalError : public std::runtime_error {
 
  private:
   Details details_;
+};
+
+/// The machine does not give what a run needs: memory, shared memory, room on a disk.
+class MachineError : public std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// A file cannot be made, written or replaced: the disk is full or broken, the folder read-only, a permission
+/// missing.
+class FileError : public MachineError {
+ public:
+  using MachineError::MachineError;
+  /// "'results/net/probes.csv' cannot be written: No space left on device"
+  /// @param error as errno has it
+  FileError(const std::filesystem::path& path, const std::string& action, int error);
 };
 
 /// The exit code a program ends with when `error` reaches main().

@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 
 #include "core/errors.hpp"
 #include "coupler/messages/messages.hpp"
+#include "coupler/messages/validate.hpp"
 #include "coupler/transport/mailbox.hpp"
 #include "coupler/transport/signal.hpp"
 
@@ -37,6 +39,56 @@ bool have_one_set(const Control& control) {
   return structure.count > 0 && structure.count == particles.count && structure.offset == particles.offset;
 }
 
+/// What this side is about to say. @throws UsageError naming the call
+template <class Message>
+void check_own(const Message& message, const char* call) {
+  try {
+    validate(message);
+  } catch (const std::invalid_argument& error) {
+    throw core::UsageError(fmt::format("{}: {}", call, error.what()));
+  }
+}
+
+const char* name_of(ArrayName name) {
+  static constexpr std::array<const char*, array_count> names{
+      "force",         "displacement",       "velocity",       "end_displacement", "end_velocity",
+      "free_velocity", "moved_displacement", "moved_velocity", "outputs"};
+  return names[static_cast<std::size_t>(name)];
+}
+
+/// A sum of zeros, unless a value is infinite or none at all: compiles to a few vector instructions.
+bool all_finite(std::span<const double> values) {
+  std::array<double, 8> sums{};
+  const std::size_t whole = values.size() / sums.size() * sums.size();
+  for (std::size_t i = 0; i < whole; i += sums.size())
+    for (std::size_t lane = 0; lane < sums.size(); ++lane) sums[lane] += 0 * values[i + lane];
+  double sum = 0;
+  for (std::size_t i = whole; i < values.size(); ++i) sum += 0 * values[i];
+  for (const double lane : sums) sum += lane;
+  return sum == 0;
+}
+
+struct Handed {
+  const char *side, *field;
+  const Command& command;
+};
+/// @pre a value is not finite
+core::NumericalError::Details no_number(std::span<const double> values, const Handed& handed) {
+  const auto bad = std::ranges::find_if_not(values, [](double value) { return std::isfinite(value); });
+  const auto place = bad - values.begin();
+  return {.what = fmt::format("the {} handed over a value that is not finite", handed.side),
+          .entity = fmt::format("{} {} of node {} of its surface in window {}", "xyz"[place % 3],
+                                handed.field, place / 3, handed.command.window),
+          .step = handed.command.window,
+          .time = handed.command.time,
+          .value = *bad};
+}
+
+bool is_stopped(pid_t pid) {
+  const auto activity = pid > 0 ? activity_of(pid) : std::nullopt;
+  return activity && activity->state == ProcessActivity::State::stopped;
+}
+
 Command command_of(const CommandRecord& record) {
   return {.action = static_cast<Action>(record.action),
           .fields = record.fields != 0,
@@ -46,6 +98,7 @@ Command command_of(const CommandRecord& record) {
           .time = record.time,
           .length = record.length,
           .regular_length = record.regular_length,
+          .force_shift = record.force_shift,
           .path = std::string(record.path.data(), strnlen(record.path.data(), record.path.size()))};
 }
 
@@ -62,6 +115,7 @@ ChannelParticipant::ChannelParticipant(std::shared_ptr<Segment> segment, const J
                                   .start = header.coupler_start};
     coupler_ = ProcessHandle(coupler);
     watch_.emplace(coupler, name_of(options.role));
+    signals_.emplace(header.state);
     ask_for_early_turns();
   }
   auto expected = static_cast<std::uint32_t>(ChannelState::awaited);
@@ -113,6 +167,8 @@ void ChannelParticipant::look_around(double seconds_waited) {
     last_heartbeat_ = heartbeat;
     last_heartbeat_at_ = seconds_waited;
   } else if (seconds_waited - last_heartbeat_at_ > options_.timeout) {
+    last_heartbeat_at_ = seconds_waited;
+    if (is_stopped(coupler_.pid())) return;  // by Ctrl-Z: it may go on
     give_up(fmt::format("gave no sign of life for {:g} s", options_.timeout));
   }
 }
@@ -124,9 +180,10 @@ void ChannelParticipant::publish_surface(const mesh::Surface& surface, std::span
     throw core::UsageError(
         fmt::format("publish_surface(): {} masses for {} nodes", node_masses.size(), surface.node_count()));
   }
+  const PublishedSurface published{surface, {node_masses.begin(), node_masses.end()}};
+  check_own(published, "publish_surface()");
   waited_for_ = "its surface to be taken";
-  send(channel_, Side::participant, MessageKind::surface,
-       encode({surface, {node_masses.begin(), node_masses.end()}}),
+  send(channel_, Side::participant, MessageKind::surface, encode(published),
        [this](double seconds) { look_around(seconds); });
   surface_nodes_ = node_masses.size();
   stage_ = Stage::surface_known;
@@ -147,6 +204,7 @@ mesh::Surface ChannelParticipant::receive_surface(std::vector<double>& node_mass
 
 void ChannelParticipant::declare(const Declaration& declaration) {
   expect(Stage::surface_known, "declare()");
+  check_own(declaration, "declare()");
   waited_for_ = "its declaration to be taken";
   send(channel_, Side::participant, MessageKind::declaration, encode(declaration),
        [this](double seconds) { look_around(seconds); });
@@ -162,6 +220,7 @@ Command ChannelParticipant::next() {
   if (load(control_.header.state) != static_cast<std::uint32_t>(RunState::running)) look_around(0);
   if (stage_ == Stage::declared) map_arrays();
   command_ = command_of(channel_.command);
+  channel_.books_work = 0;
   meter_before();
   stage_ = command_.action == Action::finish ? Stage::finished : Stage::answering;
   return command_;
@@ -169,9 +228,33 @@ Command ChannelParticipant::next() {
 
 void ChannelParticipant::answer() {
   expect(Stage::answering, "answer()");
+  refuse_no_numbers();
   stage_ = Stage::idle;
   meter_after();
   post(channel_.answer_posted);
+}
+
+void ChannelParticipant::book_work(double of_this_window) {
+  expect(Stage::answering, "book_work()");
+  channel_.window_work = of_this_window;
+  channel_.books_work = 1;
+}
+
+// Here and not in the coupler: the values are in this core's cache, and every language's participant comes by.
+void ChannelParticipant::refuse_no_numbers() {
+  if (command_.action != Action::advance && command_.action != Action::read_checkpoint) return;
+  const bool is_structure = options_.role == Role::structure;
+  using enum ArrayName;
+  static constexpr std::array of_structure{displacement, velocity, free_velocity};
+  static constexpr std::array of_particles{force, moved_displacement, moved_velocity};
+  for (const ArrayName name : is_structure ? of_structure : of_particles) {
+    const auto values = array(name);
+    if (all_finite(values)) continue;
+    const core::NumericalError error(
+        no_number(values, {.side = name_of(options_.role), .field = name_of(name), .command = command_}));
+    fail(error);
+    throw error;
+  }
 }
 
 void ChannelParticipant::fail(const std::exception& error) noexcept {
@@ -198,6 +281,11 @@ void ChannelParticipant::meter_before() {
 
 void ChannelParticipant::meter_after() {
   if (!is_metered()) return;
+  if (channel_.books_work != 0) {
+    channel_.work += channel_.window_work;
+    meter_.reset();
+    return;
+  }
   const auto force = array(ArrayName::force), displacement = array(ArrayName::displacement);
   if (options_.role == Role::structure) {
     channel_.work += meter_->end(force, displacement);

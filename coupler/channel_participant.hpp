@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "coupler/coupler_watch.hpp"
+#include "coupler/joined_signals.hpp"
 #include "coupler/messages/output_arrays.hpp"
 #include "coupler/participant.hpp"
 #include "coupler/transport/layout.hpp"
@@ -45,6 +46,7 @@ class ChannelParticipant final : public Participant {
   std::span<double> table(std::size_t table) override { return output_arrays_.table(outputs(), table); }
   double& table_rows(std::size_t table) override { return output_arrays_.table_rows(outputs(), table); }
   void tell_force_evaluations(std::int64_t since_start) override { channel_.force_evaluations = since_start; }
+  void book_work(double of_this_window) override;
 
  private:
   enum class Stage { joined, surface_known, declared, idle, answering, finished };
@@ -62,6 +64,7 @@ class ChannelParticipant final : public Participant {
   void meter_before();
   void meter_after();
   bool is_metered() const;
+  void refuse_no_numbers();
   void begin_metering();
   std::span<double> array(transport::ArrayName name) const { return arrays_[static_cast<std::size_t>(name)]; }
   std::span<double> outputs() const;
@@ -70,7 +73,8 @@ class ChannelParticipant final : public Participant {
   transport::Control& control_;
   transport::Channel& channel_;
   transport::ProcessHandle coupler_;
-  std::optional<CouplerWatch> watch_;  ///< where the coupler is another process
+  std::optional<CouplerWatch> watch_;            ///< where the coupler is another process
+  std::optional<SignalsLeftToCoupler> signals_;  ///< likewise
   JoinOptions options_;
   Stage stage_ = Stage::joined;
   std::string waited_for_ = "the coupler to begin";

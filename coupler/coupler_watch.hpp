@@ -8,17 +8,15 @@ namespace talus::coupler {
 
 /// Ends this program when its coupler dies and the program does not notice, because it computes for long or
 /// was stopped. A program that waits for a command notices by itself within a slice; it gets that time before
-/// this thread acts. Sleeps until then.
+/// this thread acts. Looks a few times a second and needs no descriptors, so that it works where they have run
+/// out.
 class CouplerWatch {
  public:
-  /// @param role for the message
+  /// @param role for the message; a literal
   CouplerWatch(const transport::ProcessIdentity& coupler, const char* role);
-  ~CouplerWatch();
-  CouplerWatch(const CouplerWatch&) = delete;
 
  private:
-  int stop_;  ///< an eventfd
-  std::thread thread_;
+  std::jthread thread_;
 };
 
 }  // namespace talus::coupler

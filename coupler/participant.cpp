@@ -4,15 +4,20 @@
 #include <filesystem>
 #include <fstream>
 
+#include "core/output/file.hpp"
 #include "core/program/log.hpp"
+#include "core/steps.hpp"
 #include "coupler/channel_participant.hpp"
 #include "coupler/transport/segment.hpp"
 
 namespace talus::coupler {
 
-bool Declaration::takes_several_steps(double window_length) const {
-  constexpr double round_off = 1e-9;
-  return step > 0 && step < window_length * (1 - round_off);
+std::int64_t Declaration::steps_in(double window_length) const {
+  return step > 0 ? core::steps_in(window_length, step) : 1;
+}
+
+double Declaration::force_shift(double window_length) const {
+  return force_use == ForceUse::load ? 0 : 0.5 * window_length / static_cast<double>(steps_in(window_length));
 }
 
 std::unique_ptr<Participant> Participant::join(const JoinOptions& options) {
@@ -35,19 +40,32 @@ core::ExitCode take_part(const JoinOptions& options, const std::function<void(Pa
   }
 }
 
+void write_checkpoint(const Command& command,
+                      const std::function<void(const std::filesystem::path&)>& write) {
+  try {
+    write(command.path);
+  } catch (const core::MachineError& error) {
+    core::log_warning(error.what());
+    std::error_code ignored;
+    std::filesystem::remove(command.path, ignored);
+  }
+}
+
 void checkpoint_state(const Command& command, std::span<std::byte> state) {
-  const auto size = static_cast<std::streamsize>(state.size());
   if (command.action == Action::write_checkpoint) {
-    std::ofstream file(command.path, std::ios::binary);
-    if (!file.write(reinterpret_cast<const char*>(state.data()), size).flush())
-      throw std::runtime_error("cannot write the checkpoint " + command.path);
+    write_checkpoint(command, [&](const std::filesystem::path& path) {
+      core::OutputFile file(path, core::OutputFile::Mode::create);
+      file.write_at(0, state);
+      file.close();
+    });
   }
   if (command.action == Action::read_checkpoint) {
     std::error_code absent;
     if (std::filesystem::file_size(command.path, absent) != state.size() || absent)
       throw core::ConfigError("the checkpoint " + command.path + " does not hold a state of " +
                               std::to_string(state.size()) + " bytes");
-    std::ifstream(command.path, std::ios::binary).read(reinterpret_cast<char*>(state.data()), size);
+    std::ifstream(command.path, std::ios::binary)
+        .read(reinterpret_cast<char*>(state.data()), static_cast<std::streamsize>(state.size()));
   }
 }
 

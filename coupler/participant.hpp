@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <span>
@@ -32,7 +33,7 @@ enum class Action : std::uint32_t {
   save_state,     ///< remember the present state; it is the start of a window
   restore_state,  ///< go back to the state remembered last
   report,         ///< fill the output values: probes, ledger, and where `fields` is set the field frames
-  write_checkpoint,  ///< write the state to `path`
+  write_checkpoint,  ///< write the state to `path`; no file there after the answer: it could not be written
   read_checkpoint,   ///< replace the state by that in `path`; before the first window only
   finish,            ///< no more commands; leave
 };
@@ -48,7 +49,18 @@ struct Command {
   double time = 0;             ///< s; the start of the window
   double length = 0;           ///< s; of the window
   double regular_length = 0;   ///< s; of a window in which nothing makes the coupler choose another
+  double force_shift = 0;      ///< s; advance of particles: how much earlier than the window the interval
+                               ///< begins and ends over which the mean of the forces is wanted
   std::string path{};          ///< of a checkpoint
+};
+
+/// What a structure does with the forces of a window, which is the time level it wants them at.
+enum class ForceUse : std::uint32_t {
+  /// Kicks at the start of each of its steps (leapfrog). A kick covers half a step before and after it, so all
+  /// of them together cover the window moved back by half a step.
+  kicks,
+  /// A load over the window, no more and no less (implicit methods).
+  load
 };
 
 /// A limit of the solver's step, as `talus check` lists it.
@@ -64,6 +76,14 @@ struct Effect {
   std::string name;  ///< "friction"
   bool present = false;
   std::string reason;  ///< "particles.contacts[0].friction is given" or what the scene would have to name
+  // What `talus explain` of a result needs to advise; empty where the effect has no such thing.
+  std::string key = {};          ///< of the scene, which names it: "particles.contacts[0].friction"
+  std::string ledger_line = {};  ///< whose energy appears where it acts: "structure.bulk_damping_J"
+  /// It may act without doing work, as friction that holds a block at rest: only where its line stays at round-off has
+  /// it not acted.
+  bool may_hold = false;
+  /// What is exceeded where it is missing: the name of a step limit, or "compression of <group>" of the field output.
+  std::string limit = {};
 };
 
 /// What a participant says of itself before time 0.
@@ -76,28 +96,33 @@ struct Declaration {
                                ///< need it
   bool light_boundary =
       false;  ///< particles: they can fill ParticleFields::moved_displacement and moved_velocity
-  bool checkpoints = false;  ///< it answers write_checkpoint and read_checkpoint
+  bool checkpoints = false;              ///< it answers write_checkpoint and read_checkpoint
+  ForceUse force_use = ForceUse::kicks;  ///< structure
   std::vector<StepLimit> limits{};
   std::vector<Effect> effects{};
   core::OutputDescription outputs{};
 
-  /// In a window of this length (s); particles then need the boundary at both its ends.
-  bool takes_several_steps(double window_length) const;
+  /// In a window of this length (s).
+  std::int64_t steps_in(double window_length) const;
+  bool takes_several_steps(double window_length) const { return steps_in(window_length) > 1; }
+  /// s; Command::force_shift of a window of this length, where this is the structure.
+  double force_shift(double window_length) const;
 };
 
 /// Interface values of one window, at the nodes of this side's surface, 3 a node. The structure's
 /// displacement and velocity hold its present state at every answer, so also after `restore_state`,
 /// `read_checkpoint` and a `report` before the first window.
 struct StructureFields {
-  std::span<const double> force;    ///< N; mean over the window, set on Ω_S
+  std::span<const double> force;    ///< N; mean over the interval that Declaration::force_use stands for
   std::span<double> displacement;   ///< m; at the window's end
   std::span<double> velocity;       ///< m/s; at the window's end (explicit leapfrog: half a step before)
   std::span<double> free_velocity;  ///< m/s; a step after `velocity`, if no interface force acted in between;
                                     ///< empty where the particles do not need it
 };
-/// The boundary is given at both ends of the window only to a participant that takes several steps in it; one
-/// that takes a single step evaluates its forces at the window's start, and its two end arrays are empty
-/// (they are not computed).
+/// The boundary is given at both ends of the window where the particles take several steps in it, or where the
+/// structure wants forces of another time than the window's start; else the two end arrays are empty (they are
+/// not computed). Between the ends it moves on the parabola through both ends whose velocity changes by
+/// end_velocity - start_velocity.
 struct ParticleFields {
   std::span<const double> start_displacement;  ///< m; of Ω_D at the window's start
   std::span<const double> start_velocity;      ///< m/s
@@ -109,7 +134,7 @@ struct ParticleFields {
   /// Where Ω_D is at the window's end if it moves as given and each node, besides, answers to its contact
   /// forces with its mass alone (m, m/s). Empty: Ω_D moves as given, whatever the forces.
   std::span<double> moved_displacement, moved_velocity;
-  std::span<double> force;  ///< N; that Ω_D receives, mean over the window
+  std::span<double> force;  ///< N; that Ω_D receives, mean over the window moved back by Command::force_shift
 };
 
 struct JoinOptions {
@@ -154,6 +179,9 @@ class Participant {
   /// How often all forces were evaluated since the start, those of windows that were taken back included: a
   /// cost that does not depend on the machine, for the summary. Between next() and answer(), by who counts.
   virtual void tell_force_evaluations([[maybe_unused]] std::int64_t since_start) {}
+  /// The work (J) of the window's forces on this side's surface, by whoever keeps a ledger of it: between an
+  /// `advance` and its answer. Of a side that does not tell it is summed from forces and displacements.
+  virtual void book_work([[maybe_unused]] double of_this_window) {}
 };
 
 /// The whole coupled life of a program: joins, serves, and tells the coupler what `serve` throws, which then
@@ -161,9 +189,13 @@ class Participant {
 /// join() throws.
 core::ExitCode take_part(const JoinOptions& options, const std::function<void(Participant&)>& serve);
 
+/// Answers write_checkpoint by `write`, which gets the path. Where the system refuses the file, this says so and
+/// leaves none: the coupler then goes on without this checkpoint.
+void write_checkpoint(const Command& command, const std::function<void(const std::filesystem::path&)>& write);
+
 /// Answers write_checkpoint and read_checkpoint for a state that is one block of plain memory; does nothing
 /// for other commands. @throws ConfigError where the checkpoint holds a state of another size or cannot be
-/// read, std::runtime_error where it cannot be written
+/// read
 void checkpoint_state(const Command& command, std::span<std::byte> state);
 
 /// Answers Action::report from a source; the same for every solver.

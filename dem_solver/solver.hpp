@@ -91,6 +91,10 @@ class ParticleSolver {
   /// From here on steps add their time to the stages of this clock, StepStage. @pre it outlives the solver
   void measure_stages(core::StageClock& clock) noexcept { stage_clock_ = &clock; }
 
+  /// For who moves the boundary by other ways between two steps than its velocities say: the work (J) that the
+  /// present reactions do on what is missing, to the ledger.
+  void book_boundary_work(double on_particles) noexcept { work_.boundary += on_particles; }
+
   const Spheres& spheres() const noexcept { return spheres_; }
   const Rocks& rocks() const noexcept { return rocks_; }
   const Gates& gates() const noexcept { return gates_; }

@@ -11,16 +11,17 @@
 /// | 1    | two equal spheres head on, elastic         | Hertz: overlap, force, duration                    |
 /// | 2    | sphere on a rigid plane, elastic           | the same                                           |
 /// | 3    | sphere on a plane, damped                  | the restitution asked for                          |
-/// | 4    | oblique on a plane, 3.9 m/s at any angle   | gross sliding; moment about the contact point      |
+/// | 4    | oblique on a plane, 3.9 m/s at any angle   | gross sliding; else the law, integrated apart      |
 /// | 5    | oblique, 5 m/s normal, any tangential      | the same                                           |
 /// | 6    | spinning onto a plane, 0.2 m/s             | the same                                           |
 /// | 7    | equal spheres spinning against each other  | no slip, so nothing changes                        |
-/// | 8    | small spinning sphere onto a large one     | gross sliding; moment about the contact point      |
+/// | 8    | small spinning sphere onto a large one     | the same                                           |
 ///
 /// Gross sliding, for an impact that slides to its end, slip > 7/2 mu (1 + e) vn: with R*, m* of the pair the
 /// tangential impulse is mu (1 + e) m* vn, so
 ///     v_t' = v_t - mu (1 + e) vn m*/m        R w' = R w + 5/2 mu (1 + e) vn m*/m.
-/// Moment: whatever the tangential force does, R (w' - w) = 5/2 (v_t - v_t'), since both come of one impulse.
+/// Impacts that stick have no closed form: their law is integrated once more in scalars (Oblique in impacts.cpp),
+/// and of the impulse J on the sphere v_t' = v_t + J/m, R w' = R w - 5/2 J/m.
 namespace talus::bench {
 
 struct ImpactResult {

@@ -1,11 +1,13 @@
 #include "core/output/checkpoint.hpp"
 
 #include <fmt/format.h>
-#include <hdf5.h>
+#include <unistd.h>
 
 #include <stdexcept>
 
 #include "core/errors.hpp"
+#include "core/output/file.hpp"
+#include "core/output/hdf5_handle.hpp"
 
 namespace talus::core {
 namespace {
@@ -28,10 +30,6 @@ class Handle {
   herr_t (*close_)(hid_t);
 };
 
-void silence_hdf5() {
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-}
-
 void write_owner(hid_t file, const std::string& owner) {
   const Handle type(H5Tcopy(H5T_C_S1), H5Tclose), space(H5Screate(H5S_SCALAR), H5Sclose);
   H5Tset_size(type, owner.size() + 1);
@@ -48,22 +46,28 @@ std::string read_owner(hid_t file) {
   return owner.c_str();
 }
 
+/// Gives the file at `path`, where there is one, the name `before` too, so that at no moment there is none.
+/// Where the file system knows no second names it is moved.
+void keep_as(const std::filesystem::path& before, const std::filesystem::path& path) {
+  if (!std::filesystem::exists(path)) return;
+  const auto second = Replacement::temporary_of(before);
+  ::unlink(second.c_str());
+  const bool linked = ::link(path.c_str(), second.c_str()) == 0;
+  rename_file(linked ? second : path, before, Durability::kill);
+  ::unlink(second.c_str());  // it stays where both names were one file's already
+}
+
 }  // namespace
 
 CheckpointWriter::CheckpointWriter(std::filesystem::path path, const std::string& owner)
-    : path_(std::move(path)), unfinished_(path_.string() + ".unfinished") {
-  silence_hdf5();
-  file_ = H5Fcreate(unfinished_.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+    : path_(std::move(path)), file_(create_hdf5_in(memory_)) {
   if (file_ < 0)
-    throw std::runtime_error(fmt::format("cannot write the checkpoint {}", unfinished_.string()));
+    throw MachineError(fmt::format("the checkpoint {} cannot be made in memory", path_.string()));
   write_owner(file_, owner);
 }
 
 CheckpointWriter::~CheckpointWriter() {
-  if (file_ < 0) return;
-  H5Fclose(file_);
-  std::error_code ignored;
-  std::filesystem::remove(unfinished_, ignored);
+  if (file_ >= 0) H5Fclose(file_);
 }
 
 void CheckpointWriter::write(const std::string& name, std::int64_t type, const void* data, std::size_t size) {
@@ -72,7 +76,8 @@ void CheckpointWriter::write(const std::string& name, std::int64_t type, const v
   const Handle set(H5Dcreate2(file_, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
                    H5Dclose);
   if (set < 0 || (size > 0 && H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) < 0))
-    throw std::runtime_error(fmt::format("cannot write '{}' to the checkpoint {}", name, path_.string()));
+    throw MachineError(fmt::format(
+        "the memory, or `ulimit -f`, does not suffice for '{}' of the checkpoint {}", name, path_.string()));
 }
 
 void CheckpointWriter::values(const std::string& name, std::vector<double>& values) {
@@ -87,11 +92,20 @@ void CheckpointWriter::bytes(const std::string& name, std::span<const std::byte>
   write(name, H5T_NATIVE_UCHAR, bytes.data(), bytes.size());
 }
 
-void CheckpointWriter::commit() {
+void CheckpointWriter::text(const std::string& name, const std::string& text) {
+  bytes(name, std::as_bytes(std::span(text)));
+}
+
+void CheckpointWriter::commit(const Place& place) {
   const herr_t closed = H5Fclose(file_);
   file_ = -1;
-  if (closed < 0) throw std::runtime_error(fmt::format("cannot finish the checkpoint {}", path_.string()));
-  std::filesystem::rename(unfinished_, path_);
+  if (closed < 0)
+    throw MachineError(
+        fmt::format("the memory, or `ulimit -f`, does not suffice for the checkpoint {}", path_.string()));
+  Replacement replacement(path_);
+  memory_.copy_to(replacement.file());
+  if (!place.before.empty()) keep_as(place.before, path_);
+  replacement.commit(place.durability);
 }
 
 CheckpointReader::CheckpointReader(const std::filesystem::path& path, const std::string& owner)
@@ -128,6 +142,12 @@ void CheckpointReader::values(const std::string& name, std::vector<double>& valu
 
 void CheckpointReader::count(const std::string& name, std::int64_t& count) {
   read(name, H5T_NATIVE_INT64, &count, 1);
+}
+
+std::optional<std::string> CheckpointReader::text(const std::string& name) {
+  if (H5Lexists(file_, name.c_str(), H5P_DEFAULT) <= 0) return std::nullopt;
+  const std::vector<std::byte> read = bytes(name);
+  return std::string(reinterpret_cast<const char*>(read.data()), read.size());
 }
 
 std::vector<std::byte> CheckpointReader::bytes(const std::string& name) {

@@ -3,9 +3,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
+
+#include "core/output/file.hpp"
+#include "core/output/memory_file.hpp"
 
 namespace talus::core {
 
@@ -17,8 +21,8 @@ class StateArchive {
   virtual void count(const std::string& name, std::int64_t& count) = 0;
 };
 
-/// Writes a state to an HDF5 file, one dataset a name, in whole or not at all: to a file beside it that takes
-/// its place in commit().
+/// Writes a state to an HDF5 file, one dataset a name, in whole or not at all: it is made in memory, then
+/// written to a file beside it that takes its place in commit().
 class CheckpointWriter final : public StateArchive {
  public:
   /// @param owner who the state belongs to, e.g. "fem_solver explicit"; checked when it is read
@@ -31,12 +35,20 @@ class CheckpointWriter final : public StateArchive {
   void count(const std::string& name, std::int64_t& count) override;
   /// Records of any kind, as this machine holds them.
   void bytes(const std::string& name, std::span<const std::byte> bytes);
-  /// @throws std::runtime_error where the file system refuses
-  void commit();
+  void text(const std::string& name, const std::string& text);
+  /// How the checkpoint takes its place.
+  struct Place {
+    Durability durability = Durability::kill;
+    std::filesystem::path before = {};  ///< where the one that was there goes; empty: it is replaced
+  };
+  /// @throws FileError where the file system refuses; what was there is then still there
+  void commit(const Place& place);
+  void commit() { commit(Place{}); }
 
  private:
   void write(const std::string& name, std::int64_t type, const void* data, std::size_t size);
-  std::filesystem::path path_, unfinished_;
+  std::filesystem::path path_;
+  MemoryFile memory_{"checkpoint"};
   std::int64_t file_ = -1;
 };
 
@@ -54,6 +66,8 @@ class CheckpointReader final : public StateArchive {
   void count(const std::string& name, std::int64_t& count) override;
   /// As many as were written. @throws ConfigError where the name is missing
   std::vector<std::byte> bytes(const std::string& name);
+  /// Nothing where the name is missing.
+  std::optional<std::string> text(const std::string& name);
 
  private:
   void read(const std::string& name, std::int64_t type, void* data, std::size_t size);

@@ -17,6 +17,8 @@ class CsvFile {
   CsvFile(const std::filesystem::path& path, const std::vector<std::string>& columns);
   /// @pre values.size() == columns
   void write_row(std::span<const double> values);
+  /// No row may follow. @throws FileError where the system says only now that there was no room
+  void close() { file_.close(); }
 
  private:
   OutputFile file_;

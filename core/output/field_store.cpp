@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include "core/errors.hpp"
 #include "core/output/hdf5_handle.hpp"
+#include "core/output/memory_file.hpp"
 
 namespace talus::core {
 namespace {
@@ -28,9 +29,9 @@ class Reserver {
         H5Dcreate2(parent, name.c_str(), numbers_, space, H5P_DEFAULT, properties_, H5P_DEFAULT), H5Dclose,
         name);
     if (content && H5Dwrite(made, numbers_, H5S_ALL, H5S_ALL, H5P_DEFAULT, content) < 0)
-      throw std::runtime_error("the HDF5 library cannot write " + name);
+      throw MachineError("the HDF5 library cannot write " + name);
     const haddr_t offset = H5Dget_offset(made);
-    if (offset == HADDR_UNDEF) throw std::runtime_error("the HDF5 library reserves no place for " + name);
+    if (offset == HADDR_UNDEF) throw MachineError("the HDF5 library reserves no place for " + name);
     return offset;
   }
 
@@ -85,10 +86,9 @@ std::string frame_name(std::int64_t frame) {
   return fmt::format("{:06}", frame);
 }
 
-FieldStore::Layout FieldStore::reserve_all(const std::filesystem::path& path,
+FieldStore::Layout FieldStore::reserve_all(const MemoryFile& memory,
                                            const std::vector<GroupDescription>& groups, std::int64_t frames) {
-  const Hdf5Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose,
-                        path.string());
+  Hdf5Handle file(create_hdf5_in(memory), H5Fclose, "the structure of fields.h5");
   Layout layout;
   const std::int64_t none = 0;
   layout.count = Reserver{H5T_NATIVE_INT64}(file, "frames_written", {1}, &none);
@@ -97,14 +97,18 @@ FieldStore::Layout FieldStore::reserve_all(const std::filesystem::path& path,
     const bool drawn = group.nodes > 0 && group.cell_count() > 0;
     layout.groups.push_back(drawn ? reserve_group(file, group, frames) : GroupPlaces{});
   }
+  if (!file.close())
+    throw MachineError("the memory, or `ulimit -f`, does not suffice for the structure of fields.h5");
   return layout;
 }
 
 FieldStore::FieldStore(const std::filesystem::path& path, const std::vector<GroupDescription>& groups,
                        std::int64_t frame_capacity)
-    : capacity_(frame_capacity),
-      layout_(reserve_all(path, groups, frame_capacity)),
-      file_(path, OutputFile::Mode::update) {}
+    : capacity_(frame_capacity), file_(path, OutputFile::Mode::create) {
+  const MemoryFile structure("fields.h5");
+  layout_ = reserve_all(structure, groups, frame_capacity);
+  structure.copy_to(file_);
+}
 
 void FieldStore::write_numbers(std::uint64_t offset, std::span<const double> values) {
   file_.write_at(offset, std::as_bytes(values));

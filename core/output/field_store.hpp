@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/output/file.hpp"
+#include "core/output/memory_file.hpp"
 #include "core/output/source.hpp"
 
 namespace talus::core {
@@ -24,9 +25,9 @@ std::string frame_name(std::int64_t frame);
 ///     /<group>/<field>
 ///
 /// One dataset a frame, because ParaView's Xdmf3 reader cannot read a part of a dataset. The HDF5 library
-/// writes the file's structure once, before the first frame, and closes it. Frames are then plain writes into
-/// the places reserved for them, so that a kill at any moment leaves a file that opens. Frames not yet
-/// written take no disk space.
+/// makes the file's structure once, before the first frame, in memory, from where it is copied. Frames are then
+/// plain writes into the places reserved for them, so that a kill at any moment leaves a file that opens, and a
+/// full disk is an error of a plain write. Frames not yet written take no disk space.
 class FieldStore {
  public:
   /// @pre group names differ; a group without nodes is left out
@@ -51,11 +52,13 @@ class FieldStore {
   /// Closes the frame in progress, which counts from here on. @throws UsageError where the capacity is used
   /// up
   void end_frame(double time);
+  /// No call may follow. @throws FileError where the system says only now that there was no room
+  void close() { file_.close(); }
   std::int64_t frames_written() const { return frames_written_; }
   std::int64_t capacity() const { return capacity_; }
 
  private:
-  static Layout reserve_all(const std::filesystem::path& path, const std::vector<GroupDescription>& groups,
+  static Layout reserve_all(const MemoryFile& memory, const std::vector<GroupDescription>& groups,
                             std::int64_t frames);
   void write_numbers(std::uint64_t offset, std::span<const double> values);
 

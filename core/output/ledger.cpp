@@ -1,5 +1,6 @@
 #include "core/output/ledger.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace talus::core {
@@ -25,18 +26,32 @@ double sign(LedgerKind kind) {
 }  // namespace
 
 LedgerBalance::Row LedgerBalance::add(std::span<const double> joules) {
-  double balance = 0, kinetic = 0;
+  double balance = 0, kinetic = 0, supplied = 0, stored = 0;
+  most_fallen_.reset();
   for (std::size_t i = 0; i < lines_.size(); ++i) {
-    balance += sign(lines_[i].kind) * joules[i];
+    const LedgerKind kind = lines_[i].kind;
+    balance += sign(kind) * joules[i];
     if (is_kinetic(lines_[i])) kinetic += joules[i];
+    if (kind == LedgerKind::supplied) supplied += joules[i];
+    if (kind == LedgerKind::stored) stored += std::abs(joules[i]);
+    highest_[i] = started_ ? std::max(highest_[i], joules[i]) : joules[i];
+    const double fallen = highest_[i] - joules[i];
+    if (kind == LedgerKind::dissipated && fallen > (most_fallen_ ? most_fallen_->joules : 0))
+      most_fallen_ = Fall{i, fallen};
   }
   if (!started_) first_balance_ = balance;
+  if (!started_) first_supplied_ = supplied;
   started_ = true;
-  largest_kinetic_ = std::max(largest_kinetic_, kinetic);
+  scale_ = std::max({scale_, kinetic, std::abs(supplied - first_supplied_)});
+  largest_stored_ = std::max(largest_stored_, stored);
   last_.error = balance - first_balance_;
-  last_.error_relative = largest_kinetic_ > 0 ? last_.error / largest_kinetic_ : 0;
-  if (std::abs(last_.error) > std::abs(largest_.error)) largest_ = last_;
+  last_.error_relative = scale_ > 0 ? last_.error / scale_ : 0;
+  if (std::abs(last_.error) > std::abs(largest_error_)) largest_error_ = last_.error;
   return last_;
+}
+
+LedgerBalance::Row LedgerBalance::largest() const {
+  return {largest_error_, scale_ > 0 ? largest_error_ / scale_ : 0};
 }
 
 }  // namespace talus::core

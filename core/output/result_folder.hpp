@@ -12,9 +12,9 @@ class ResultFolder {
   enum class Existing { refuse, replace };
 
   /// Makes the folder. `replace` removes the files of an earlier result, those of its tables included, and
-  /// leaves all others alone.
+  /// leaves all others alone. Unfinished files that a killed run left behind count as nothing and go.
   /// @throws ConfigError where something is there already (and may not be replaced), is no folder, or another
-  /// run writes to it.
+  /// run writes to it; FileError where the system refuses.
   ResultFolder(const std::filesystem::path& path, Existing existing);
   ~ResultFolder();
   ResultFolder(const ResultFolder&) = delete;
@@ -24,6 +24,8 @@ class ResultFolder {
 
   /// The names of the files a result may consist of, besides those of its tables, which summary.json lists.
   static const std::vector<std::string>& file_names();
+  /// Whether a file of this name is one that a run writes to before it takes its place.
+  static bool is_unfinished(const std::string& name);
   static std::string table_file(const std::string& table) { return table + ".csv"; }
 
  private:

@@ -74,6 +74,11 @@ void ResultTables::update(double time) {
   }
 }
 
+void ResultTables::close() {
+  for (SourceTable& table : content_->tables)
+    if (table.file) table.file->close();
+}
+
 nlohmann::json ResultTables::summary() const {
   auto json = nlohmann::json::object();
   for (const SourceTable& table : content_->tables) {

@@ -21,6 +21,8 @@ class ResultTables {
   /// Asks the sources: appends the events that are new, and replaces the distributions.
   /// @throws NumericalError where a value is not finite
   void update(double time);
+  /// No update may follow. @throws FileError where the system says only now that there was no room
+  void close();
 
   /// Of each table by name: its file and number of rows, or its rows as objects of columns.
   nlohmann::json summary() const;

@@ -14,20 +14,19 @@
 #include "core/output/csv.hpp"
 #include "core/output/field_index.hpp"
 #include "core/output/field_store.hpp"
+#include "core/output/file.hpp"
+#include "core/output/last_words.hpp"
 #include "core/output/peaks.hpp"
+#include "core/output/reserve.hpp"
 #include "core/output/result_tables.hpp"
 #include "core/output/table.hpp"
+#include "core/program/log.hpp"
 
 namespace talus::core {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr std::chrono::seconds summary_pause{2};  // between rewritings of the summary of a run in progress
-
-const char* name_of(RunStatus status) {
-  static constexpr std::array names{"running", "finished", "interrupted", "failed"};
-  return names[static_cast<std::size_t>(status)];
-}
 
 const char* name_of(LedgerKind kind) {
   static constexpr std::array names{"stored", "dissipated", "supplied", "memo"};
@@ -71,11 +70,19 @@ struct FieldFiles {
   FieldIndex index;
 };
 
+/// The folder of a run, and room in it for the last words.
+struct Place {
+  explicit Place(const ResultWriter::Options& options)
+      : folder(options.folder, options.existing), reserve(options.folder) {}
+  ResultFolder folder;
+  Reserve reserve;
+};
+
 }  // namespace
 
 struct ResultWriter::Content {
   Options options;
-  ResultFolder folder;
+  std::unique_ptr<Place> place;
   std::vector<const OutputSource*> sources;
   OutputDescription description;
   CsvFile probe_file;
@@ -83,6 +90,7 @@ struct ResultWriter::Content {
   ResultTables tables;
   std::optional<FieldFiles> fields = {};
   LedgerBalance balance;
+  EnergyGuard guard;
   Peaks peaks = {};
   nlohmann::json extra = nlohmann::json::object();
 
@@ -93,15 +101,16 @@ struct ResultWriter::Content {
   std::int64_t rows = 0;
   std::vector<double> probe_row = {}, energy_row = {}, field_values = {};
 
-  Content(const Options& o, std::vector<const OutputSource*> s)
+  Content(const Options& o, std::vector<const OutputSource*> s, std::unique_ptr<Place> p)
       : options(o),
-        folder(o.folder, o.existing),
+        place(std::move(p)),
         sources(std::move(s)),
         description(joined(sources)),
         probe_file(o.folder / "probes.csv", columns(description.probes)),
         energy_file(o.folder / "energy.csv", columns(description.ledger, {"error_J", "error_relative"})),
         tables(o.folder, sources),
-        balance(description.ledger) {
+        balance(description.ledger),
+        guard(o.energy_error, balance) {
     if (o.frame_capacity > 0) fields.emplace(o.folder, description.groups, o.frame_capacity);
     probe_row.resize(1 + description.probes.size());
     energy_row.resize(1 + description.ledger.size());
@@ -139,6 +148,11 @@ struct ResultWriter::Content {
       probe += probes;
       line += lines;
     }
+  }
+
+  void warn(const std::string& warning) {
+    log_warning(warning);
+    extra["warnings"].push_back(warning);
   }
 
   /// The row that stands in probe_row and, without its balance, in energy_row.
@@ -183,12 +197,7 @@ struct ResultWriter::Content {
     const double wall = std::chrono::duration<double>(Clock::now() - started).count();
     const double simulated = last_time ? *last_time - *first_time : 0;
     nlohmann::json json = extra;
-    json["status"] = name_of(status);
-    if (!message.empty()) json["message"] = message;
-    json["title"] = options.title;
-    json["scene"] = options.scene.string();
-    json["scene_hash"] = options.scene_hash;
-    json["program"] = options.program;
+    json.update(facts_of(options, status, message));
     json["started_at"] = started_at;
     json["simulated_time_s"] = simulated;
     json["wall_time_s"] = wall;
@@ -199,6 +208,7 @@ struct ResultWriter::Content {
     json["energy"]["error_relative"] = balance.last().error_relative;
     json["energy"]["largest_error_J"] = balance.largest().error;
     json["energy"]["largest_error_relative"] = balance.largest().error_relative;
+    json["energy"]["impact_J"] = balance.scale();
     json["tables"] = tables.summary();
     add_columns(json);
     return json;
@@ -216,18 +226,29 @@ struct ResultWriter::Content {
     for (std::size_t i = 0; rows > 0 && i < description.ledger.size(); ++i)
       json["energy"]["last"][description.ledger[i].name] = energy_row[i + 1];
   }
-  void write_summary(RunStatus status, const std::string& message) {
-    // A path of the system may hold bytes of any encoding; JSON holds UTF-8.
-    constexpr auto replace = nlohmann::json::error_handler_t::replace;
-    replace_file(options.folder / "summary.json",
-                 own_summary(status, message).dump(2, ' ', false, replace) + "\n");
+  void write_summary(RunStatus status, const std::string& message, Durability durability = Durability::kill) {
+    replace_file(options.folder / "summary.json", text_of(own_summary(status, message)), durability);
     summary_written = Clock::now();
+  }
+  /// Some file systems say only here that there was no room.
+  void close_files() {
+    probe_file.close();
+    energy_file.close();
+    tables.close();
+    if (fields) fields->store.close();
   }
 };
 
-ResultWriter::ResultWriter(const Options& options, std::vector<const OutputSource*> sources)
-    : content_(std::make_unique<Content>(options, std::move(sources))) {
-  content_->write_summary(RunStatus::running, {});
+ResultWriter::ResultWriter(const Options& options, std::vector<const OutputSource*> sources) {
+  auto place = std::make_unique<Place>(options);
+  try {
+    content_ = std::make_unique<Content>(options, std::move(sources), std::move(place));
+    content_->write_summary(RunStatus::running, {});
+  } catch (const MachineError& error) {
+    content_.reset();
+    write_failed_summary(options, error.what());
+    throw;
+  }
 }
 
 ResultWriter::~ResultWriter() = default;
@@ -242,6 +263,7 @@ void ResultWriter::write_row(double time) {
   c.append_row(time);
   c.tables.update(time);
   if (!c.first_time) c.first_time = time;
+  for (const std::string& warning : c.guard.look(time)) c.warn(warning);
   if (Clock::now() - c.summary_written > summary_pause) c.write_summary(RunStatus::running, {});
 }
 
@@ -275,7 +297,7 @@ void ResultWriter::write_fields(double time) {
 }
 
 const std::filesystem::path& ResultWriter::folder() const {
-  return content_->folder.path();
+  return content_->place->folder.path();
 }
 std::optional<double> ResultWriter::last_row_time() const {
   return content_->last_time;
@@ -288,8 +310,19 @@ nlohmann::json& ResultWriter::summary() {
 }
 
 void ResultWriter::finish(RunStatus status, const std::string& message) {
-  if (content_->fields) content_->fields->index.write();
-  content_->write_summary(status, message);
+  auto& c = *content_;
+  if (status == RunStatus::finished) c.guard.judge(c.last_time.value_or(0));
+  c.close_files();
+  if (c.fields) c.fields->index.write();
+  c.place->reserve.release();
+  c.write_summary(status, message, Durability::power_loss);
+}
+
+void ResultWriter::give_up(const std::string& message) noexcept {
+  auto& c = *content_;
+  c.place->reserve.release();
+  write_if_possible([&] { c.write_summary(RunStatus::failed, message, Durability::power_loss); });
+  if (c.fields) write_if_possible([&] { c.fields->index.write(); });
 }
 
 }  // namespace talus::core

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <csignal>
 #include <cstdio>
+#include <new>
 
 #include "core/parallel.hpp"
 #include "core/program/log.hpp"
@@ -39,7 +41,19 @@ void apply(const RunOptions& options) {
   show_log_from(silent ? LogLevel::warning : LogLevel::info);
 }
 
+namespace {
+
+std::string sentence_of(const std::exception& error, const std::string& program) {
+  if (dynamic_cast<const std::bad_alloc*>(&error) != nullptr)
+    return program + " ends: this machine has not enough memory for it";
+  return exit_code(error) == ExitCode::bug ? fmt::format("{} ends: {}", program, error.what()) : error.what();
+}
+
+}  // namespace
+
 int run_main(const std::string& program, const std::function<ExitCode()>& body) noexcept {
+  // A file that outgrows `ulimit -f` is an error of a write like a full disk.
+  std::signal(SIGXFSZ, SIG_IGN);
   const auto code = [](ExitCode c) { return static_cast<int>(c); };
   try {
     return code(body());
@@ -48,7 +62,7 @@ int run_main(const std::string& program, const std::function<ExitCode()>& body) 
     return code(ExitCode::config);
   } catch (const std::exception& error) {
     const ExitCode which = exit_code(error);
-    log_error(which == ExitCode::bug ? fmt::format("{} ends: {}", program, error.what()) : error.what());
+    log_error(sentence_of(error, program));
     return code(which);
   } catch (...) {
     std::fprintf(stderr, "error: %s ends with an exception of no known kind\n", program.c_str());
@@ -71,7 +85,7 @@ int run_main(CLI::App& app, int argc, const char* const* argv,
 
 int solver_main(int argc, const char* const* argv, const SolverProgram& program) noexcept {
   CLI::App app(program.purpose, program.name);
-  app.footer("Example:\n  " + program.example);
+  app.footer("Example:\n  " + program.example + "\n\n" + exit_code_help());
   SolverCommand command;
   bool schema = false;
   auto* scene = app.add_option("SCENE", command.scene, "the scene, a YAML file");
@@ -85,7 +99,7 @@ int solver_main(int argc, const char* const* argv, const SolverProgram& program)
     }
     if (scene->empty()) throw ConfigError("a scene is needed, for example:  " + program.example);
     apply(command.run);
-    command.join.empty() ? watch_stop_signals() : ignore_interrupts();
+    command.join.empty() ? watch_stop_signals("at the end of this step") : ignore_stop_signals();
     return program.run(command);
   });
 }

@@ -8,6 +8,7 @@
 #include <memory>
 #include <mutex>
 
+#include "core/errors.hpp"
 #include "core/output/file.hpp"
 
 namespace talus::core {
@@ -43,22 +44,33 @@ class Log {
   void write(LogLevel level, const std::string& message) {
     const std::lock_guard lock(mutex_);
     const spdlog::details::log_msg entry("talus", spdlog_level(level), message);
-    for (spdlog::sinks::sink* sink : {static_cast<spdlog::sinks::sink*>(shown_.get()), file_sink()})
-      if (sink->should_log(entry.level)) sink->log(entry), sink->flush();
+    write(*shown_, entry);
+    if (!write(file_ ? static_cast<spdlog::sinks::sink&>(*file_) : *early_, entry)) file_.reset();
   }
   void open(const std::filesystem::path& path) {
     const std::lock_guard lock(mutex_);
     std::string before;
     for (const auto& line : early_->last_formatted()) before += line;
     replace_file(path, before);
-    file_ = std::make_unique<spdlog::sinks::basic_file_sink_mt>(path.string(), false);
+    try {
+      file_ = std::make_unique<spdlog::sinks::basic_file_sink_mt>(path.string(), false);
+    } catch (const spdlog::spdlog_ex& error) {
+      throw FileError(error.what());
+    }
     file_->set_pattern(file_pattern);
     file_->set_level(spdlog::level::info);
   }
 
  private:
-  spdlog::sinks::sink* file_sink() {
-    return file_ ? static_cast<spdlog::sinks::sink*>(file_.get()) : early_.get();
+  /// False where it cannot be written: a full disk must not keep a message from the screen, nor a terminal
+  /// that is gone end a run.
+  static bool write(spdlog::sinks::sink& sink, const spdlog::details::log_msg& entry) noexcept {
+    try {
+      if (sink.should_log(entry.level)) sink.log(entry), sink.flush();
+      return true;
+    } catch (const std::exception&) {
+      return false;
+    }
   }
 
   std::mutex mutex_;

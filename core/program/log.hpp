@@ -11,8 +11,8 @@ enum class LogLevel { debug, info, warning, error };
 
 /// What is shown on the standard error stream from here on; log.txt gets everything from `info` up.
 void show_log_from(LogLevel level);
-/// Opens log.txt. Messages from before are written to it first. @throws std::runtime_error where it cannot be
-/// written
+/// Opens log.txt. Messages from before are written to it first. @throws FileError where it cannot be
+/// written; what cannot be written later is shown only
 void open_log_file(const std::filesystem::path& path);
 void log(LogLevel level, const std::string& message);
 

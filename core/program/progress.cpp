@@ -76,20 +76,33 @@ void Progress::finish(const ProgressState& state) {
   if (style_ == ProgressStyle::line) std::fputc('\n', stream_);
 }
 
+/// A terminal that was closed, or a pipe whose reader left, is no reason to end a run.
+void Progress::print(const std::string& text) {
+  std::fputs(text.c_str(), stream_);
+  std::fflush(stream_);
+}
+
+void Progress::note(const std::string& text) {
+  if (style_ == ProgressStyle::quiet) return;
+  show_line(style_ == ProgressStyle::json ? nlohmann::json{{"note", text}}.dump() : text);
+}
+
 void Progress::show(const ProgressState& state) {
-  std::string line = style_ == ProgressStyle::json ? progress_json(state, unit_, wall())
-                                                   : progress_line(state, unit_, wall());
+  show_line(style_ == ProgressStyle::json ? progress_json(state, unit_, wall())
+                                          : progress_line(state, unit_, wall()));
+  shown_ = Clock::now();
+  while (next_share_ * state.end <= state.time && next_share_ < 1) next_share_ += 0.1;
+}
+
+void Progress::show_line(std::string line) {
   if (style_ == ProgressStyle::line) {
     const std::size_t length = line.size();
     if (length < width_) line.append(width_ - length, ' ');  // wipes what is left of a longer line before
     width_ = length;
-    fmt::print(stream_, "\r{}", line);
+    print("\r" + line);
   } else {
-    fmt::print(stream_, "{}\n", line);
+    print(line + "\n");
   }
-  std::fflush(stream_);
-  shown_ = Clock::now();
-  while (next_share_ * state.end <= state.time && next_share_ < 1) next_share_ += 0.1;
 }
 
 }  // namespace talus::core

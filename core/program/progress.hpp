@@ -33,6 +33,8 @@ class Progress {
   /// Cheap enough for every step: looks at the clock only each `1024` steps or where nothing was shown for
   /// long.
   void update(const ProgressState& state);
+  /// Why nothing moves: "waits 20 s for structure: computing, 98 % CPU".
+  void note(const std::string& text);
   /// The last line, and a line break.
   void finish(const ProgressState& state);
 
@@ -40,6 +42,8 @@ class Progress {
   using Clock = std::chrono::steady_clock;
   bool is_due(const ProgressState& state) const;
   void show(const ProgressState& state);
+  void show_line(std::string line);
+  void print(const std::string& text);
   double wall() const;
 
   ProgressStyle style_;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdint>
+#include <set>
 #include <sstream>
 #include <tuple>
 
@@ -129,6 +130,27 @@ std::filesystem::path SceneFile::path_at(const std::string& key_path) const {
   if (node == nullptr || node->kind != SceneNode::Kind::scalar) return {};
   const auto& file = node->place.file ? *node->place.file : content_->path;
   return file.parent_path() / node->scalar;
+}
+
+namespace {
+
+void add_named_files(const SceneNode& node, const std::filesystem::path& folder,
+                     std::set<std::filesystem::path>& found) {
+  for (const auto& item : node.items) add_named_files(item, folder, found);
+  for (const auto& entry : node.entries) add_named_files(entry.value, folder, found);
+  if (node.kind != SceneNode::Kind::scalar || node.scalar.empty()) return;
+  const auto from = node.place.file ? node.place.file->parent_path() : folder;
+  const auto path = (from / node.scalar).lexically_normal();
+  std::error_code not_a_path;
+  if (std::filesystem::is_regular_file(path, not_a_path)) found.insert(path);
+}
+
+}  // namespace
+
+std::vector<std::filesystem::path> SceneFile::named_files() const {
+  std::set<std::filesystem::path> found;
+  add_named_files(content_->root, content_->path.parent_path(), found);
+  return {found.begin(), found.end()};
 }
 
 std::string SceneFile::text() const {

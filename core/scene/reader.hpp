@@ -41,6 +41,9 @@ class SceneFile {
   /// The path that stands at "structure.solver", relative to the file it was written in, which may be one
   /// that this scene extends. Empty where nothing or no text stands there.
   std::filesystem::path path_at(const std::string& key_path) const;
+  /// The files that the scene names anywhere, such as meshes and solvers: every text of it that, taken from the
+  /// folder of the file it is written in, is the path of a file. Sorted, each once.
+  std::vector<std::filesystem::path> named_files() const;
   /// Hexadecimal digest of the effective content (after `extends`), the `scene_hash` of summaries.
   std::string hash() const;
   bool has_section(const std::string& key) const;

@@ -38,6 +38,15 @@ void describe(Fields& fields, ProbeScene& probe) {
 
 void describe(Fields&, StageTimesScene&) {}
 
+void describe(Fields& fields, EnergyErrorScene& energy_error) {
+  fields.with_default(
+      "warning", energy_error.warning,
+      {.range = positive, .help = "share of the run's impact from which on a warning is given"});
+  fields.with_default("error", energy_error.error,
+                      {.range = positive, .help = "share from which on the run ends as failed"});
+  fields.rule(energy_error.warning <= energy_error.error, "warning", "must not be above `error`");
+}
+
 void describe(Fields& fields, OutputScene& output) {
   fields.with_default("every", output.every,
                       {.unit = "s",
@@ -51,6 +60,8 @@ void describe(Fields& fields, OutputScene& output) {
   fields.section("stage_times", output.stage_times,
                  "columns of probes.csv with the seconds that each stage of the steps has taken so far; "
                  "`talus explain` of the result then shows its share");
+  fields.section("energy_error", output.energy_error_scene,
+                 "how far the energy balance may be off, as shares of the energy that the run is about");
 }
 
 }  // namespace talus::core

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/output/energy_guard.hpp"
 #include "core/scene/fields.hpp"
 
 /// The sections every program reads: `title`, `time`, `output`. Those of one side stand in that side's scene/
@@ -33,12 +34,16 @@ void describe(Fields& fields, ProbeScene& probe);
 struct StageTimesScene {};
 void describe(Fields& fields, StageTimesScene& stage_times);
 
+void describe(Fields& fields, EnergyErrorScene& energy_error);
+
 /// `output:` what is written and how often.
 struct OutputScene {
   double every = 0;  ///< s between rows of probes.csv and energy.csv; 0: 200 rows over the run
   std::optional<double> fields_every;  ///< s between frames of fields.h5; absent: no field output
   std::vector<std::pair<std::string, ProbeScene>> probes;
   std::optional<StageTimesScene> stage_times;
+  std::optional<EnergyErrorScene> energy_error_scene;
+  EnergyErrorScene energy_error() const { return energy_error_scene.value_or(EnergyErrorScene{}); }
 };
 void describe(Fields& fields, OutputScene& output);
 

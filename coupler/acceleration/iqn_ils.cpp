@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
-#include <utility>
 
 #include "core/output/checkpoint.hpp"
 
@@ -30,6 +29,7 @@ void IqnIls::start_in(Index unknowns) {
   residual_changes_.resize(unknowns, most);
   made_changes_.resize(unknowns, most);
   gram_.setZero(most, most);
+  against_.resize(unknowns, 2);
 }
 
 IqnIls::Index IqnIls::free_place() const {
@@ -38,24 +38,21 @@ IqnIls::Index IqnIls::free_place() const {
   return place;
 }
 
-Eigen::VectorXd IqnIls::project(const Eigen::VectorXd& residual) const {
-  return residual_changes_.leftCols(used_).transpose() * residual;
-}
-
-void IqnIls::add_column(const Eigen::VectorXd& residual, const Eigen::VectorXd& made,
-                        Eigen::VectorXd& products) {
+void IqnIls::add_column(const Eigen::VectorXd& made) {
   if (columns_.size() == settings_.most_columns) columns_.erase(columns_.begin());
   const Index place = free_place();
-  const Index before = used_;
   used_ = std::max(used_, place + 1);
-  residual_changes_.col(place) = residual - residual_;
+  residual_changes_.col(place) = against_.col(1);
   made_changes_.col(place) = made - made_;
-  gram_.col(place).head(before) = products - products_;
-  gram_.row(place).head(before) = gram_.col(place).head(before).transpose();
-  gram_(place, place) = residual_changes_.col(place).squaredNorm();
-  products.conservativeResize(used_);
-  products[place] = residual_changes_.col(place).dot(residual);
   columns_.push_back({place, window_});
+  const Eigen::MatrixXd products = residual_changes_.leftCols(used_).transpose() * against_;
+  products_ = products.col(0);
+  gram_.col(place).head(used_) = products.col(1);
+  gram_.row(place).head(used_) = products.col(1).transpose();
+}
+
+void IqnIls::drop_earlier_windows() {
+  std::erase_if(columns_, [this](const Column& column) { return column.window < window_; });
 }
 
 /// Cholesky over the newest columns first. Rows of `factor` belong to the columns kept, in that order.
@@ -94,17 +91,21 @@ void IqnIls::update(std::span<double> x, std::span<const double> made) {
   Eigen::Map<Eigen::VectorXd> iterate(x.data(), unknowns);
   const Eigen::Map<const Eigen::VectorXd> result(made.data(), unknowns);
   if (residual_changes_.rows() != unknowns) start_in(unknowns);
-  new_residual_ = result - iterate;
-  Eigen::VectorXd products = project(new_residual_);
-  if (!first_) add_column(new_residual_, result, products);
-  products_ = std::move(products);
+  against_.col(0) = result - iterate;
+  if (first_) {
+    products_ = residual_changes_.leftCols(used_).transpose() * against_.col(0);
+  } else {
+    if (against_.col(0).squaredNorm() > residual_.squaredNorm()) drop_earlier_windows();
+    against_.col(1) = against_.col(0) - residual_;
+    add_column(result);
+  }
+  residual_ = against_.col(0);
   if (columns_.empty()) {
-    iterate += settings_.initial_factor * new_residual_;
+    iterate += settings_.initial_factor * residual_;
   } else {
     iterate = result;
     iterate.noalias() += made_changes_.leftCols(used_) * coefficients();
   }
-  std::swap(residual_, new_residual_);
   made_ = result;
   first_ = false;
 }

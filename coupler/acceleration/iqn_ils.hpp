@@ -27,11 +27,15 @@ namespace talus::coupler {
 /// | b      | products_  | b_j = v_j . r_k                          | that of x^2     | m                 |
 ///
 /// The normal equations G c = -b are solved by Cholesky over the newest columns first; a column whose part
-/// across those before it is less than `filter` of its length is skipped. G is not recomputed: with v = r_k -
-/// r_k-1 its new row is b_k - b_k-1, so an iteration reads each v once and each w once. The price of normal
-/// equations is that directions below 1e-8 of a column cannot be told apart, which is why the filter may not
-/// be smaller. On a linear problem of n unknowns the model is exact after n iterations ("converges in at most
-/// n + 1 iterations" in acceleration_test.cpp).
+/// across those before it is less than `filter` of its length is skipped. An iteration reads each v once, for
+/// its products with r_k and with the new column together, and each w once. (With v = r_k - r_k-1 the new row of
+/// G is b_k - b_k-1, too, but that difference carries 1e-16 |r|/|v| of noise, more than the filter lets pass
+/// where r hardly changes.) The price of normal equations is that directions below 1e-8 of a column cannot be
+/// told apart, which is why the filter may not be smaller. On a linear problem of n unknowns the model is exact
+/// after n iterations ("converges in at most n + 1 iterations" in acceleration_test.cpp).
+///
+/// Columns of earlier windows mislead where contacts have changed since. An iteration after which the residual
+/// is larger than before it drops them ("columns of a window that mislead are dropped" in acceleration_test.cpp).
 class IqnIls {
  public:
   struct Settings {
@@ -43,6 +47,7 @@ class IqnIls {
   explicit IqnIls(const Settings& settings);
 
   void begin_window();
+  void step_aside() { first_ = true; }
   void update(std::span<double> x, std::span<const double> made);
   void forget();
   std::size_t columns() const { return columns_.size(); }
@@ -58,9 +63,8 @@ class IqnIls {
   };
   void start_in(Index unknowns);
   Index free_place() const;
-  /// v_j . r of all places.
-  Eigen::VectorXd project(const Eigen::VectorXd& residual) const;
-  void add_column(const Eigen::VectorXd& residual, const Eigen::VectorXd& made, Eigen::VectorXd& products);
+  void add_column(const Eigen::VectorXd& made);
+  void drop_earlier_windows();
   /// c_j of all places, 0 where none or a skipped column is.
   Eigen::VectorXd coefficients() const;
 
@@ -71,9 +75,9 @@ class IqnIls {
   Index used_ = 0;                                   ///< places that have held a column so far
   Eigen::MatrixXd residual_changes_, made_changes_;  ///< v, w; a column each place
   Eigen::MatrixXd gram_;                             ///< by places
-  Eigen::VectorXd products_;                         ///< b of the last iteration, by places
+  Eigen::VectorXd products_;                         ///< b of this iteration, by places
   Eigen::VectorXd residual_, made_;                  ///< of the last iteration
-  Eigen::VectorXd new_residual_;                     ///< keeps its memory from one iteration to the next
+  Eigen::MatrixXd against_;  ///< residual of this iteration, and the new column; keeps its memory
 };
 
 }  // namespace talus::coupler

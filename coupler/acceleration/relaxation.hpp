@@ -11,6 +11,8 @@
 /// An acceleration is a type with
 ///     void begin_window();                                              the next update is a window's first
 ///     void update(std::span<double> x, std::span<const double> made);   x becomes the next iterate
+///     void step_aside();                                                x went on without it: its last residual is
+///                                                                       not the one that x was stepped from
 ///     void forget();                                                    of windows of another length: what
 ///     was
 ///                                                                       learnt in them does not hold
@@ -27,6 +29,7 @@ struct NoAcceleration {
   void update(std::span<double> x, std::span<const double> made) {
     std::copy(made.begin(), made.end(), x.begin());
   }
+  void step_aside() {}
   void forget() {}
   void archive(core::StateArchive&) {}
 };
@@ -38,6 +41,7 @@ struct FixedRelaxation {
   void update(std::span<double> x, std::span<const double> made) {
     for (std::size_t i = 0; i < x.size(); ++i) x[i] += factor * (made[i] - x[i]);
   }
+  void step_aside() {}
   void forget() {}
   void archive(core::StateArchive&) {}
 };
@@ -60,6 +64,7 @@ class Aitken {
   explicit Aitken(double initial_factor) : initial_(initial_factor), factor_(initial_factor) {}
 
   void begin_window() { residual_.clear(); }
+  void step_aside() { residual_.clear(); }
   void update(std::span<double> x, std::span<const double> made);
   void forget() { factor_ = initial_; }
   double factor() const { return factor_; }

@@ -45,9 +45,10 @@ void add_check(CLI::App& app, Chosen& chosen) {
   auto* command = app.add_subcommand(
       "check", "print every step limit of a scene; exit code 2 where a stability limit is exceeded");
   command->footer("Example:\n  talus check configs/examples/cable_net.yaml");
-  const auto scene = std::make_shared<std::filesystem::path>();
-  command->add_option("SCENE", *scene, "the scene, a YAML file")->required();
-  command->callback([scene, &chosen] { chosen.run = [scene] { return check_scene(*scene); }; });
+  const auto request = std::make_shared<InspectRequest>();
+  command->add_option("SCENE", request->scene, "the scene, a YAML file")->required();
+  command->add_flag("--trust", request->trust, trust_help);
+  command->callback([request, &chosen] { chosen.run = [request] { return check_scene(*request); }; });
 }
 
 void add_schema(CLI::App& app, Chosen& chosen) {

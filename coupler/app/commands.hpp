@@ -20,6 +20,9 @@ struct Chosen {
 /// Adds a subcommand with its options to the application.
 using AddSubcommand = void (*)(CLI::App& app, Chosen& chosen);
 
+inline constexpr const char* trust_help =
+    "start the programs that the scene names and ask them; else only Talus's own sides are asked";
+
 void add_run(CLI::App& app, Chosen& chosen);
 void add_check(CLI::App& app, Chosen& chosen);
 void add_explain(CLI::App& app, Chosen& chosen);

@@ -24,12 +24,14 @@ void add_explain(CLI::App& app, Chosen& chosen) {
       "out or seems to be missing");
   command->footer(
       "Example:\n  talus explain configs/examples/cable_net.yaml\n  talus explain results/cable_net");
-  const auto path = std::make_shared<std::filesystem::path>();
-  command->add_option("SCENE_OR_RESULT", *path, "a scene (a YAML file) or the folder of a result")
+  const auto request = std::make_shared<InspectRequest>();
+  command->add_option("SCENE_OR_RESULT", request->scene, "a scene (a YAML file) or the folder of a result")
       ->required();
-  command->callback([path, &chosen] {
-    chosen.run = [path] {
-      return std::filesystem::is_directory(*path) ? explain_result(*path) : explain_scene(*path);
+  command->add_flag("--trust", request->trust, trust_help);
+  command->callback([request, &chosen] {
+    chosen.run = [request] {
+      return std::filesystem::is_directory(request->scene) ? explain_result(request->scene)
+                                                           : explain_scene(*request);
     };
   });
 }

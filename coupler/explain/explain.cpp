@@ -48,10 +48,13 @@ std::string energy_shares(const ResultFacts& facts) {
   const double impact = facts.impact();
   std::string text =
       fmt::format("energy (largest of each line, and its share of the impact's {:.4g} J)\n", impact);
-  for (const auto& [line, kind] : facts.summary.at("energy").at("kinds").items())
-    text += fmt::format("  {:>8.3g} %  {:>12.4g} J  {:<10} {}\n",
-                        impact > 0 ? 100 * facts.largest(line) / impact : 0, facts.largest(line),
-                        kind.get<std::string>(), line);
+  for (const auto& [line, kind] : facts.summary.at("energy").at("kinds").items()) {
+    const auto found = facts.largest(line);
+    if (!found) continue;  // unknown, not zero
+    const double largest = *found;
+    text += fmt::format("  {:>8.3g} %  {:>12.4g} J  {:<10} {}\n", impact > 0 ? 100 * largest / impact : 0,
+                        largest, kind.get<std::string>(), line);
+  }
   return text;
 }
 
@@ -64,7 +67,7 @@ std::string listed(const std::string& heading, const std::vector<Finding>& findi
   return text;
 }
 
-std::string effects_of(const nlohmann::json& summary) {
+std::string listed_effects(const nlohmann::json& summary) {
   std::string text = "effects\n";
   for (const auto& effect : summary.value("effects", nlohmann::json::array()))
     text += fmt::format("  {:<3} {:<10} {:<32} {}\n", effect.at("present") ? "in" : "out",
@@ -81,9 +84,11 @@ std::string explanation(const ResultFacts& facts) {
     const auto found = rule(facts);
     findings.insert(findings.end(), found.begin(), found.end());
   }
-  std::string text = effects_of(facts.summary) + time_shares(facts.summary) + energy_shares(facts) +
+  std::string text = listed_effects(facts.summary) + time_shares(facts.summary) + energy_shares(facts) +
                      listed("may be left out", findings, Finding::Kind::may_be_left_out) +
                      listed("seems to be missing", findings, Finding::Kind::seems_missing);
+  if (facts.impact() <= 0)
+    text += "  (nothing moves in any row, so that no energy can be compared with an impact's)\n";
   if (facts.parts.empty())
     text += "  (stresses were not looked at: the result has no frames, see output.fields_every)\n";
   return text;

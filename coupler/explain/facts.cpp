@@ -34,8 +34,10 @@ void add_sheet_stresses(const core::FieldReader& fields, const core::GroupDescri
     part.tension = std::max(part.tension, centre + radius);
     part.compression = std::max(part.compression, radius - centre);
   }
-  for (const double state : fields.read(group, "wrinkle_state", frame))
-    part.ever_wrinkled = part.ever_wrinkled || state != 0;
+  if (!has_field(group, "wrinkle_state")) return;
+  const auto states = fields.read(group, "wrinkle_state", frame);
+  part.gave_way = part.gave_way.value_or(false) ||
+                  std::ranges::any_of(states, [](const double state) { return state != 0; });
 }
 
 std::vector<PartFacts> parts_of(const fs::path& file) {
@@ -46,7 +48,8 @@ std::vector<PartFacts> parts_of(const fs::path& file) {
     const bool line = has_field(group, "axial_force"), sheet = has_field(group, "stress_xx");
     if (!line && !sheet) continue;
     PartFacts part{.name = group.name, .kind = line ? PartFacts::Kind::line : PartFacts::Kind::sheet};
-    for (std::int64_t frame = 0; frame < fields.frames(); ++frame)
+    part.frames = fields.frames();
+    for (std::int64_t frame = 0; frame < part.frames; ++frame)
       line ? add_line_forces(fields, group, frame, part) : add_sheet_stresses(fields, group, frame, part);
     parts.push_back(part);
   }
@@ -66,34 +69,42 @@ double ResultFacts::impact() const {
   return kinetic.empty() ? 0 : *std::ranges::max_element(kinetic);
 }
 
-double ResultFacts::largest(const std::string& line) const {
+std::optional<double> ResultFacts::largest(const std::string& line) const {
+  const auto* values = energy.column(line);
+  if (!values) return std::nullopt;
   double largest = 0;
-  if (const auto* values = energy.column(line))
-    for (const double joules : *values) largest = std::max(largest, std::abs(joules));
+  for (const double joules : *values) largest = std::max(largest, std::abs(joules));
   return largest;
 }
 
-bool ResultFacts::has(const std::string& side, const std::string& effect) const {
-  const auto effects = summary.value("effects", nlohmann::json::array());
-  return std::ranges::any_of(effects, [&](const auto& known) {
-    return known.at("side") == side && known.at("name") == effect && known.at("present");
-  });
+const EffectFacts* ResultFacts::against(const std::string& limit) const {
+  const auto found = std::ranges::find(effects, limit, &EffectFacts::limit);
+  return found == effects.end() || limit.empty() ? nullptr : &*found;
 }
 
-std::vector<std::string> ResultFacts::lines(const std::string& beginning) const {
-  std::vector<std::string> found;
-  std::ranges::copy_if(energy.names, std::back_inserter(found),
-                       [&](const std::string& name) { return name.starts_with(beginning); });
-  return found;
+std::vector<EffectFacts> effects_of(const nlohmann::json& summary) {
+  std::vector<EffectFacts> effects;
+  for (const auto& effect : summary.value("effects", nlohmann::json::array()))
+    effects.push_back({.side = effect.at("side"),
+                       .name = effect.at("name"),
+                       .key = effect.value("key", ""),
+                       .ledger_line = effect.value("ledger_line", ""),
+                       .limit = effect.value("limit", ""),
+                       .present = effect.at("present"),
+                       .may_hold = effect.value("may_hold", false)});
+  return effects;
 }
 
 ResultFacts read_facts(const fs::path& result) {
   std::ifstream summary(result / "summary.json");
   if (!summary)
     throw core::ConfigError("'" + result.string() + "' holds no result: there is no summary.json");
-  return {.summary = nlohmann::json::parse(summary),
-          .energy = core::read_table(result / "energy.csv"),
-          .parts = parts_of(result / "fields.h5")};
+  ResultFacts facts{.summary = nlohmann::json::parse(summary),
+                    .energy = core::read_table(result / "energy.csv"),
+                    .parts = parts_of(result / "fields.h5"),
+                    .effects = {}};
+  facts.effects = effects_of(facts.summary);
+  return facts;
 }
 
 }  // namespace talus::explain

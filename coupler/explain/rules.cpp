@@ -10,153 +10,96 @@ namespace {
 constexpr auto may_be_left_out = Finding::Kind::may_be_left_out;
 constexpr auto seems_missing = Finding::Kind::seems_missing;
 
-bool is_negligible(const ResultFacts& facts, const std::string& line) {
-  return facts.largest(line) < negligible_energy * facts.impact();
+/// Of the impact's energy; nothing where the line is not there, or nothing moved.
+std::optional<double> share_of(const ResultFacts& facts, const std::string& line) {
+  const double impact = facts.impact();
+  const auto largest = facts.largest(line);
+  if (!largest || !(impact > 0)) return std::nullopt;
+  return *largest / impact;
 }
 
-std::string share(const ResultFacts& facts, const std::string& line) {
-  return fmt::format("{:.2g} of the impact", facts.largest(line) / facts.impact());
-}
-
-bool nothing_turns(const ResultFacts& facts) {
-  return is_negligible(facts, "particles.kinetic_rotation_J");
-}
-
-/// A line that an effect owns, whose energy stays negligible.
-struct OwnedLine {
-  const char* side;
-  const char* effect;
-  const char* line;
-  const char* key;
-};
-
-std::vector<Finding> idle(const ResultFacts& facts, const OwnedLine& owned) {
-  if (!facts.has(owned.side, owned.effect) || !is_negligible(facts, owned.line)) return {};
-  return {{may_be_left_out, fmt::format("{}: its energy stays at {}: `{}` may be dropped", owned.effect,
-                                        share(facts, owned.line), owned.key)}};
-}
-
-void append(std::vector<Finding>& findings, std::vector<Finding> more) {
-  findings.insert(findings.end(), more.begin(), more.end());
+std::string in_the_scene(const EffectFacts& effect) {
+  return effect.key.empty() ? effect.name : fmt::format("{} (`{}`)", effect.name, effect.key);
 }
 
 }  // namespace
 
-std::vector<Finding> friction_that_turns_nothing(const ResultFacts& facts) {
-  if (!facts.has("particles", "friction") || !nothing_turns(facts) ||
-      !is_negligible(facts, "contacts.friction_J"))
-    return {};
-  return {{may_be_left_out,
-           fmt::format("rotation is integrated, but spin energy stays at {} and friction takes {}: "
-                       "`friction` of `particles.contacts` may be dropped, and rotation with it",
-                       share(facts, "particles.kinetic_rotation_J"), share(facts, "contacts.friction_J"))}};
-}
-
-std::vector<Finding> rolling_without_rotation(const ResultFacts& facts) {
-  if (!facts.has("particles", "rolling resistance") || !nothing_turns(facts)) return {};
-  return {{may_be_left_out,
-           fmt::format("rolling resistance has nothing to resist, spin energy stays at {}: `rolling` of "
-                       "`particles.contacts` may be dropped",
-                       share(facts, "particles.kinetic_rotation_J"))}};
-}
-
-std::vector<Finding> gravity_that_does_no_work(const ResultFacts& facts) {
-  std::vector<Finding> findings =
-      idle(facts, {"structure", "gravity on the structure", "structure.gravity_J", "structure.gravity"});
-  append(findings, idle(facts, {"particles", "gravity", "particles.gravity_J", "particles.gravity"}));
-  return findings;
-}
-
-std::vector<Finding> damping_that_takes_nothing(const ResultFacts& facts) {
-  std::vector<Finding> findings = idle(facts, {"structure", "mass-proportional damping",
-                                               "structure.bulk_damping_J", "structure.damping.mass"});
-  append(findings, idle(facts, {"structure", "stiffness-proportional damping", "structure.bulk_damping_J",
-                                "structure.damping.stiffness"}));
-  return findings;
-}
-
-std::vector<Finding> parts_that_never_dissipate(const ResultFacts& facts) {
-  const std::string beginning = "structure.dissipated_";
+std::vector<Finding> effects_that_do_nothing(const ResultFacts& facts) {
   std::vector<Finding> findings;
-  for (const auto& line : facts.lines(beginning)) {
-    if (!is_negligible(facts, line)) continue;
-    const std::string part = line.substr(beginning.size(), line.size() - beginning.size() - 2);  // "_J"
+  for (const auto& effect : facts.effects) {
+    if (!effect.present || effect.ledger_line.empty()) continue;
+    const auto share = share_of(facts, effect.ledger_line);
+    if (!share || *share >= (effect.may_hold ? round_off_energy : negligible_energy)) continue;
     findings.push_back(
         {may_be_left_out,
-         fmt::format("`{}` dissipates {}: its friction, brake or yielding may be dropped; an elastic "
-                     "rope gives the same",
-                     part, share(facts, line))});
+         fmt::format("{}: {} stays at {:.2g} of the impact; without it no peak changes by more than {:g} %",
+                     in_the_scene(effect), effect.ledger_line, *share, 100 * promised)});
   }
   return findings;
 }
 
-std::vector<Finding> tension_fields_that_stay_taut(const ResultFacts& facts) {
+std::vector<Finding> slackness_that_never_shows(const ResultFacts& facts) {
   std::vector<Finding> findings;
-  for (const auto& part : facts.parts)
-    if (facts.has("structure", "tension field of " + part.name) && !part.ever_wrinkled)
-      findings.push_back(
-          {may_be_left_out, fmt::format("membrane `{}` stays taut in every frame: its `tension_field` "
-                                        "may be dropped",
-                                        part.name)});
+  for (const auto& part : facts.parts) {
+    const EffectFacts* effect = facts.against("compression of " + part.name);
+    if (!effect || !effect->present || part.gave_way.value_or(true) || part.frames < telling_frames) continue;
+    findings.push_back({may_be_left_out, fmt::format("{}: `{}` stays taut in all {} frames",
+                                                     in_the_scene(*effect), part.name, part.frames)});
+  }
   return findings;
 }
 
 std::vector<Finding> iterations_that_change_nothing(const ResultFacts& facts) {
-  const double mean = facts.summary.value("/iterations/mean"_json_pointer, HUGE_VAL);
-  if (mean > idle_iterations) return {};
+  const auto iterations = facts.summary.value("iterations", nlohmann::json::object());
+  const auto in_contact = iterations.value("in_contact", nlohmann::json::object());
+  const auto windows = in_contact.value("windows", std::int64_t{0});
+  const bool all_at_once = windows > 0 && in_contact.value("most", std::int64_t{0}) == 1;
+  if (!all_at_once || iterations.value("windows_halved", std::int64_t{0}) > 0 ||
+      iterations.value("windows_not_converged", std::int64_t{0}) > 0)
+    return {};
   return {{may_be_left_out,
-           fmt::format("the strong scheme takes {:.3g} iterations a window: `serial_explicit` gives the "
-                       "same",
-                       mean)}};
+           fmt::format("the strong scheme takes one iteration in each of the {} windows with contact: "
+                       "`serial_explicit` gives the same within the scheme's tolerance",
+                       windows)}};
 }
 
-std::vector<Finding> compression_in_sheets(const ResultFacts& facts) {
+std::vector<Finding> compression_that_an_effect_takes_away(const ResultFacts& facts) {
   std::vector<Finding> findings;
   for (const auto& part : facts.parts) {
-    if (part.kind != PartFacts::Kind::sheet || facts.has("structure", "tension field of " + part.name) ||
-        part.compression <= negligible_compression * part.tension)
-      continue;
-    findings.push_back(
-        {seems_missing, fmt::format("compression up to {:.2g} % of the tension in membrane `{}`: no "
-                                    "tension field; `tension_field` lets it wrinkle instead",
-                                    100 * part.compression / part.tension, part.name)});
-  }
-  return findings;
-}
-
-std::vector<Finding> compression_in_wires(const ResultFacts& facts) {
-  std::vector<Finding> findings;
-  for (const auto& part : facts.parts) {
-    const bool is_post = part.compression > part.tension;
-    if (part.kind != PartFacts::Kind::line || is_post ||
-        part.compression <= negligible_compression * part.tension)
+    const EffectFacts* effect = facts.against("compression of " + part.name);
+    const bool is_post = part.kind == PartFacts::Kind::line && part.compression > part.tension;
+    if (!effect || effect->present || is_post || part.compression <= negligible_compression * part.tension)
       continue;
     findings.push_back(
         {seems_missing,
-         fmt::format("bars of `{}` push with up to {:.2g} % of their tension: if they are ropes or wires, "
-                     "`cable` lets them go slack",
-                     part.name, 100 * part.compression / part.tension)});
+         fmt::format("compression up to {:.2g} % of the tension in `{}`: {} is out and would take it away",
+                     100 * part.compression / part.tension, part.name, in_the_scene(*effect))});
   }
   return findings;
 }
 
-std::vector<Finding> dashpots_too_fast_for_their_nodes(const ResultFacts& facts) {
+std::vector<Finding> limits_that_an_effect_lifts(const ResultFacts& facts) {
   std::vector<Finding> findings;
-  for (const auto& limit : facts.summary.value("limits", nlohmann::json::array()))
-    if (limit.at("name") == "contact dashpot on boundary nodes" && limit.value("exceeded", false))
-      findings.push_back(
-          {seems_missing,
-           fmt::format("the step is {:.2g} times that which the contact dashpot on the structure's light "
-                       "nodes can follow: `particles.implicit_contact` keeps its accuracy at this step",
-                       limit.at("step_s").get<double>() / limit.at("limit_s").get<double>())});
+  for (const auto& limit : facts.summary.value("limits", nlohmann::json::array())) {
+    const auto name = limit.at("name").get<std::string>();
+    const EffectFacts* effect = facts.against(name);
+    if (!limit.value("exceeded", false) || !effect || effect->present) continue;
+    findings.push_back(
+        {seems_missing, fmt::format("the step is {:.2g} times the limit '{}': {} lifts it",
+                                    limit.at("step_s").get<double>() / limit.at("limit_s").get<double>(),
+                                    name, in_the_scene(*effect))});
+  }
   return findings;
 }
 
 std::vector<Finding> energy_made_by_the_coupling(const ResultFacts& facts) {
-  if (facts.largest("interface.created_J") <= large_energy_error * facts.impact()) return {};
-  return {{seems_missing,
-           fmt::format("the coupling makes or loses {}: a smaller `coupling.window` or a strong scheme",
-                       share(facts, "interface.created_J"))}};
+  const auto share = share_of(facts, "interface.created_J");
+  if (!share || *share <= large_energy_error) return {};
+  return {
+      {seems_missing,
+       fmt::format(
+           "the coupling makes or loses {:.2g} of the impact: a smaller `coupling.window` or a strong scheme",
+           *share)}};
 }
 
 std::vector<Finding> energy_that_does_not_close(const ResultFacts& facts) {
@@ -167,11 +110,10 @@ std::vector<Finding> energy_that_does_not_close(const ResultFacts& facts) {
 }
 
 const std::vector<Rule>& rules() {
-  static const std::vector<Rule> all{
-      friction_that_turns_nothing,       rolling_without_rotation,    gravity_that_does_no_work,
-      damping_that_takes_nothing,        parts_that_never_dissipate,  tension_fields_that_stay_taut,
-      iterations_that_change_nothing,    compression_in_sheets,       compression_in_wires,
-      dashpots_too_fast_for_their_nodes, energy_made_by_the_coupling, energy_that_does_not_close};
+  static const std::vector<Rule> all{effects_that_do_nothing,        slackness_that_never_shows,
+                                     iterations_that_change_nothing, compression_that_an_effect_takes_away,
+                                     limits_that_an_effect_lifts,    energy_made_by_the_coupling,
+                                     energy_that_does_not_close};
   return all;
 }
 

@@ -8,9 +8,11 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <cmath>
 #include <cstdlib>
+#include <utility>
 
 #include "core/errors.hpp"
 
@@ -19,11 +21,18 @@ namespace {
 
 constexpr int could_not_start = 127;  // as a shell says it
 
+/// Signals that the coupler handles or ignores and whose default a program may expect.
+constexpr std::array own_signals{SIGINT, SIGTERM, SIGUSR1, SIGUSR2, SIGPIPE, SIGXFSZ};
+
 [[noreturn]] void become(char* const* arguments) {
+  setpgid(0, 0);
   // A child stopped by SIGSTOP would outlive a killed coupler for good; continued, its participant notices
   // the death and ends it.
   prctl(PR_SET_PDEATHSIG, SIGCONT);
-  signal(SIGINT, SIG_IGN);
+  for (const int number : own_signals) signal(number, SIG_DFL);
+  const int nothing = open("/dev/null", O_RDONLY);
+  if (nothing >= 0) dup2(nothing, STDIN_FILENO);
+  if (nothing > STDIN_FILENO) close(nothing);
   dup2(STDERR_FILENO, STDOUT_FILENO);
   // Idle threads of GCC's OpenMP would spin for milliseconds after each loop, on cores that the other
   // processes of the run need next. A user's own choice stands.
@@ -43,6 +52,7 @@ pid_t start(const std::vector<std::string>& command) {
                                 .waited_for = "the program to start",
                                 .reason = fmt::format("could not be started ({})", strerror(errno))});
   }
+  setpgid(pid, pid);  // both do: whichever comes first
   return pid;
 }
 
@@ -57,17 +67,23 @@ std::string ExitStatus::text() const {
   return fmt::format("ended with exit code {}", code);
 }
 
-Child::Child(const std::vector<std::string>& command) : handle_(transport::identify(start(command))) {}
+Child::Child(const std::vector<std::string>& command)
+    : pid_(start(command)), handle_(transport::identify(pid_)) {}
+
+Child::Child(Child&& other) noexcept
+    : pid_(std::exchange(other.pid_, 0)), handle_(std::move(other.handle_)), status_(other.status_) {}
 
 Child::~Child() {
-  if (pid() > 0 && !status()) kill();
+  end();
 }
 
 std::optional<ExitStatus> Child::status() {
-  int raw = 0;
-  if (!status_ && pid() > 0 && waitpid(pid(), &raw, WNOHANG) == pid()) {
-    status_ = WIFSIGNALED(raw) ? ExitStatus{.signal = WTERMSIG(raw)} : ExitStatus{.code = WEXITSTATUS(raw)};
-  }
+  siginfo_t info{};
+  if (status_ || pid_ <= 0) return status_;
+  if (waitid(P_PID, static_cast<id_t>(pid_), &info, WEXITED | WNOHANG | WNOWAIT) != 0 || info.si_pid != pid_)
+    return std::nullopt;
+  status_ =
+      info.si_code == CLD_EXITED ? ExitStatus{.code = info.si_status} : ExitStatus{.signal = info.si_status};
   return status_;
 }
 
@@ -76,10 +92,29 @@ std::optional<ExitStatus> Child::wait_end(double seconds) {
   return status();
 }
 
-void Child::kill() {
-  handle_.send_signal(SIGKILL);
-  handle_.wait_end(-1);
-  status();
+void Child::signal_group(int signal) const noexcept {
+  if (pid_ > 0) ::kill(-pid_, signal);
+}
+
+void Child::ask_to_end() noexcept {
+  signal_group(SIGTERM);
+  signal_group(SIGCONT);
+}
+
+void Child::kill() noexcept {
+  signal_group(SIGKILL);
+}
+
+void Child::end() noexcept {
+  if (pid_ <= 0) return;
+  if (!status()) {
+    ask_to_end();
+    wait_end(patience);
+  }
+  kill();  // also what a child that has ended left behind
+  wait_end(patience);
+  waitpid(pid_, nullptr, WNOHANG);
+  pid_ = 0;
 }
 
 }  // namespace talus::coupler::launch

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,6 +14,7 @@ namespace talus::coupler::launch {
 struct Program {
   std::string name;
   std::vector<std::string> command;  ///< program and arguments
+  std::filesystem::path file = {};   ///< of a program that a scene names: what really runs
 };
 
 /// How a child ended.
@@ -23,29 +25,42 @@ struct ExitStatus {
   std::string text() const;
 };
 
-/// A running child. It ignores Ctrl-C, which the terminal sends to the whole group: the coupler decides when
-/// a run ends.
+/// A running child, the leader of a process group of its own: signals that the terminal or `timeout` sends to
+/// the group of the coupler do not reach it, since the coupler decides when a run ends; and what the child
+/// starts itself, such as the ranks of an `mpirun`, ends with it. It reads nothing (a group in the background
+/// may not read from the terminal).
 class Child {
  public:
   /// Starts `command` (program and arguments); its standard output goes to our standard error, which leaves
   /// ours to the results.
   /// @throws TransportError if the system cannot start it
   explicit Child(const std::vector<std::string>& command);
-  ~Child();  ///< kills and reaps it where it still runs
-  Child(Child&&) noexcept = default;
+  ~Child();  ///< end()
+  Child(Child&& other) noexcept;
   Child& operator=(Child&&) noexcept = delete;
   Child(const Child&) = delete;
 
-  /// The exit status once it has ended; reaps it.
+  /// The exit status once it has ended. The system keeps its id, and so its group's, until this object ends.
   std::optional<ExitStatus> status();
   /// Sleeps until it has ended, at most `seconds`.
   std::optional<ExitStatus> wait_end(double seconds);
-  void kill();  ///< SIGKILL, and reaps
-  pid_t pid() const noexcept { return handle_.pid(); }
+  /// SIGTERM to the whole group, which a stopped process gets too.
+  void ask_to_end() noexcept;
+  void kill() noexcept;  ///< SIGKILL to what is left of the group
+  /// Asks, waits for some seconds, kills, waits again (a process inside of a broken disk does not even hear
+  /// SIGKILL), and reaps.
+  void end() noexcept;
+  pid_t pid() const noexcept { return pid_; }
 
  private:
+  void signal_group(int signal) const noexcept;
+
+  pid_t pid_ = 0;  ///< 0: moved from, or reaped
   transport::ProcessHandle handle_;
   std::optional<ExitStatus> status_;
 };
+
+/// s; between SIGTERM and SIGKILL. An `mpirun` gives its ranks one or two.
+inline constexpr double patience = 5;
 
 }  // namespace talus::coupler::launch

@@ -57,7 +57,8 @@ std::optional<Program> named_solver(const std::string& written, const fs::path& 
     if (!can_be_started(file)) continue;
     std::vector<std::string> command{file.string()};
     if (is_python(file)) command = python_command(file);
-    return Program{.name = file.filename(), .command = std::move(command)};
+    return Program{
+        .name = file.filename(), .command = std::move(command), .file = fs::weakly_canonical(file)};
   }
   return std::nullopt;
 }

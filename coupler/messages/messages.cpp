@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/errors.hpp"
+#include "coupler/messages/validate.hpp"
 
 namespace talus::coupler {
 namespace {
@@ -39,14 +40,17 @@ json parse(ByteView bytes) {
 /// Runs a decoder; a message that does not hold what it should is the sender's fault, whatever exception says
 /// so.
 template <class Decode>
-auto decoded(const char* what, Decode&& decode) {
+auto decoded(const char* what, const std::string& sender, Decode&& decode) {
+  const auto refuse = [&](const char* why, const std::exception& error) {
+    return core::TransportError(
+        {.peer = sender, .waited_for = what, .reason = std::string(why) + " (" + error.what() + ")"});
+  };
   try {
     return decode();
+  } catch (const std::invalid_argument& error) {
+    throw refuse("said what cannot be", error);
   } catch (const std::exception& error) {
-    throw core::TransportError(
-        {.peer = "a participant",
-         .waited_for = what,
-         .reason = std::string("sent a message that cannot be read (") + error.what() + ")"});
+    throw refuse("sent a message that cannot be read", error);
   }
 }
 
@@ -163,8 +167,8 @@ Bytes encode(const PublishedSurface& published) {
                {"node_masses", binary(published.node_masses)}});
 }
 
-PublishedSurface decode_surface(ByteView bytes) {
-  return decoded("a surface", [&] {
+PublishedSurface decode_surface(ByteView bytes, const std::string& sender) {
+  return decoded("a surface", sender, [&] {
     const json j = parse(bytes);
     PublishedSurface published;
     published.surface.positions = values_of<double>(j.at("positions"));
@@ -172,6 +176,7 @@ PublishedSurface decode_surface(ByteView bytes) {
     published.surface.triangles = values_of<std::array<mesh::Index, 3>>(j.at("triangles"));
     for (const auto& part : j.at("parts")) published.surface.parts.push_back(part_from(part));
     published.node_masses = values_of<double>(j.at("node_masses"));
+    validate(published);
     return published;
   });
 }
@@ -185,7 +190,13 @@ Bytes encode(const Declaration& declaration) {
                       {"reason", limit.reason}});
   }
   for (const auto& effect : declaration.effects) {
-    effects.push_back({{"name", effect.name}, {"present", effect.present}, {"reason", effect.reason}});
+    effects.push_back({{"name", effect.name},
+                       {"present", effect.present},
+                       {"reason", effect.reason},
+                       {"key", effect.key},
+                       {"ledger_line", effect.ledger_line},
+                       {"may_hold", effect.may_hold},
+                       {"limit", effect.limit}});
   }
   return cbor({{"program", declaration.program},
                {"step", declaration.step},
@@ -193,13 +204,14 @@ Bytes encode(const Declaration& declaration) {
                {"free_velocity", declaration.free_velocity},
                {"light_boundary", declaration.light_boundary},
                {"checkpoints", declaration.checkpoints},
+               {"force_use", static_cast<int>(declaration.force_use)},
                {"limits", limits},
                {"effects", effects},
                {"outputs", to_json(declaration.outputs)}});
 }
 
-Declaration decode_declaration(ByteView bytes) {
-  return decoded("a declaration", [&] {
+Declaration decode_declaration(ByteView bytes, const std::string& sender) {
+  return decoded("a declaration", sender, [&] {
     const json j = parse(bytes);
     Declaration declaration{.program = j.at("program"),
                             .step = j.at("step"),
@@ -207,6 +219,7 @@ Declaration decode_declaration(ByteView bytes) {
                             .free_velocity = j.at("free_velocity"),
                             .light_boundary = j.at("light_boundary"),
                             .checkpoints = j.at("checkpoints"),
+                            .force_use = static_cast<ForceUse>(j.at("force_use").get<std::uint32_t>()),
                             .limits = {},
                             .effects = {},
                             .outputs = outputs_from(j.at("outputs"))};
@@ -217,9 +230,15 @@ Declaration decode_declaration(ByteView bytes) {
                                     .reason = limit.at("reason")});
     }
     for (const auto& effect : j.at("effects")) {
-      declaration.effects.push_back(
-          {.name = effect.at("name"), .present = effect.at("present"), .reason = effect.at("reason")});
+      declaration.effects.push_back({.name = effect.at("name"),
+                                     .present = effect.at("present"),
+                                     .reason = effect.at("reason"),
+                                     .key = effect.value("key", ""),
+                                     .ledger_line = effect.value("ledger_line", ""),
+                                     .may_hold = effect.value("may_hold", false),
+                                     .limit = effect.value("limit", "")});
     }
+    validate(declaration);
     return declaration;
   });
 }
@@ -230,12 +249,14 @@ Bytes encode_failure(const std::exception& error) {
     for (const auto& complaint : config->complaints()) j["complaints"].push_back(to_json(complaint));
   } else if (const auto* numerical = dynamic_cast<const core::NumericalError*>(&error)) {
     j["numerical"] = to_json(numerical->details());
+  } else if (core::exit_code(error) == core::ExitCode::machine) {
+    j["machine"] = true;
   }
   return cbor(j);
 }
 
 void throw_failure(ByteView bytes, const FailureContext& context) {
-  const json j = decoded("a failure", [&] { return parse(bytes); });
+  const json j = decoded("a failure", context.peer, [&] { return parse(bytes); });
   if (j.contains("complaints")) {
     std::vector<core::Complaint> complaints;
     for (const auto& c : j["complaints"]) {
@@ -248,6 +269,8 @@ void throw_failure(ByteView bytes, const FailureContext& context) {
     throw core::NumericalError({d.at("what"), d.at("entity"), d.at("step"), d.at("time"),
                                 values_of<double>(d.at("value")).at(0), d.at("last_output_time")});
   }
+  if (j.contains("machine"))
+    throw core::MachineError(context.peer + ": " + j.value("message", std::string("no reason given")));
   throw core::TransportError(
       {.peer = context.peer,
        .waited_for = context.waited_for,

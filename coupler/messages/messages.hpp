@@ -26,9 +26,10 @@ Bytes encode(const Declaration& declaration);
 /// The kind of the error and everything needed to make the same error again.
 Bytes encode_failure(const std::exception& error);
 
-/// @throws TransportError where the bytes are not such a message
-PublishedSurface decode_surface(ByteView bytes);
-Declaration decode_declaration(ByteView bytes);
+/// @param sender for the error's text
+/// @throws TransportError where the bytes are not such a message, or what it says makes no sense (validate.hpp)
+PublishedSurface decode_surface(ByteView bytes, const std::string& sender = "a participant");
+Declaration decode_declaration(ByteView bytes, const std::string& sender = "a participant");
 
 /// Who failed and when, for errors whose own text does not say it.
 struct FailureContext {
@@ -36,8 +37,8 @@ struct FailureContext {
   std::string waited_for;
   std::int64_t window = -1;
 };
-/// Throws the participant's error in the coupler: ConfigError and NumericalError as they were, anything else
-/// as a TransportError that names the participant.
+/// Throws the participant's error in the coupler: ConfigError and NumericalError as they were, errors of the
+/// machine as MachineError, anything else as a TransportError; the last two name the participant.
 [[noreturn]] void throw_failure(ByteView bytes, const FailureContext& context);
 
 }  // namespace talus::coupler

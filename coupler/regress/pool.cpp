@@ -42,7 +42,10 @@ std::optional<std::vector<FinishedRun>> run_side_by_side(const std::vector<Sched
   std::vector<FinishedRun> finished(runs.size());
   std::list<Running> running;
   for (std::size_t next = 0; next < runs.size() || !running.empty();) {
-    if (core::stop_requested()) return std::nullopt;
+    if (core::stop_requested()) {
+      for (Running& run : running) run.child.ask_to_end();  // all at once; their ends are then waited for
+      return std::nullopt;
+    }
     while (next < runs.size() && running.size() < static_cast<std::size_t>(jobs)) {
       running.push_back({next, start(runs[next]), Clock::now()});
       ++next;

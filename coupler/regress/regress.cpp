@@ -29,7 +29,7 @@ int cores() {
 }  // namespace
 
 core::ExitCode regress(const RegressRequest& request) {
-  core::watch_stop_signals();
+  core::watch_stop_signals("with the runs in progress");
   const auto regressions = find_regressions(request.folder);
   const auto runs = schedule(regressions, request.out);
   const auto finished = run_side_by_side(runs, request.jobs > 0 ? request.jobs : cores());

@@ -48,21 +48,31 @@ void print_tightest(const std::vector<CheckedLimit>& limits, bool stability) {
   }
 }
 
+/// @param what "limits"
+void print_not_asked(const PreparedRun& run, const char* what) {
+  for (const NotAsked& side : run.not_asked)
+    fmt::print(
+        "The {0} was not asked: the scene names a program for it, {1}. Its {2}, and those of what the other "
+        "side does with it, are missing here; --trust starts the program and asks it.\n",
+        name_of(side.role), side.program.string(), what);
+}
+
 }  // namespace
 
-core::ExitCode check_scene(const std::filesystem::path& scene) {
-  PreparedRun run = prepare({.scene = scene});
+core::ExitCode check_scene(const InspectRequest& request) {
+  PreparedRun run = prepare({.scene = request.scene, .trust = request.trust});
   run.session->finish();
   fmt::print("{}\n", table_of(run.limits));
   print_tightest(run.limits, true);
   print_tightest(run.limits, false);
+  print_not_asked(run, "limits");
   const bool refused =
       std::any_of(run.limits.begin(), run.limits.end(), [](const auto& l) { return l.refused(); });
   return refused ? core::ExitCode::config : core::ExitCode::success;
 }
 
-core::ExitCode explain_scene(const std::filesystem::path& scene) {
-  PreparedRun run = prepare({.scene = scene});
+core::ExitCode explain_scene(const InspectRequest& request) {
+  PreparedRun run = prepare({.scene = request.scene, .trust = request.trust});
   run.session->finish();
   for (Peer* peer : run.session->peers()) {
     fmt::print("{} ({})\n", name_of(peer->role()), peer->declaration().program);
@@ -70,6 +80,7 @@ core::ExitCode explain_scene(const std::filesystem::path& scene) {
       fmt::print("  {:<3} {:<32} {}\n", effect.present ? "in" : "out", effect.name, effect.reason);
     }
   }
+  print_not_asked(run, "effects");
   return core::ExitCode::success;
 }
 

@@ -87,8 +87,16 @@ PreparedRun prepare(const PrepareOptions& options) {
       announce(side, run.file, *run.session, run.scene.coupling.join_timeout);
       continue;
     }
-    if (const auto program = program_of(side, run.file, options.threads, complaints))
-      run.session->launch(side.role, *program);
+    const auto program = program_of(side, run.file, options.threads, complaints);
+    if (!program) continue;
+    const bool foreign = side.scene->solver.has_value();
+    if (foreign && !options.trust) {
+      run.not_asked.push_back({side.role, program->file});
+      continue;
+    }
+    if (foreign)
+      core::log_info(fmt::format("the program of the {} is {}", name_of(side.role), program->file.string()));
+    run.session->launch(side.role, *program);
   }
   run.session->wait_joined();
   std::optional<InterfacePlan> plan;

@@ -2,12 +2,19 @@
 
 #include <algorithm>
 
+#include "core/program/log.hpp"
 #include "coupler/schemes/commands.hpp"
 
 namespace talus::coupler {
 
 Reporter::Reporter(Session& session, core::ResultWriter& results, Plan plan, core::ProgressStyle style)
-    : session_(session), results_(results), plan_(std::move(plan)), progress_(style, "windows") {}
+    : session_(session), results_(results), plan_(std::move(plan)), progress_(style, "windows") {
+  session_.tell_waits_to([this](const std::string& text) { progress_.note(text); });
+}
+
+Reporter::~Reporter() {
+  session_.tell_waits_to(core::log_info);
+}
 
 core::ProgressState Reporter::state(std::int64_t window) const {
   return {.time = static_cast<double>(window) * plan_.span.window_length,

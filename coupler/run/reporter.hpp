@@ -17,6 +17,8 @@ class Reporter {
     std::string limited_by{};  ///< for the progress line
   };
   Reporter(Session& session, core::ResultWriter& results, Plan plan, core::ProgressStyle style);
+  ~Reporter();
+  Reporter(const Reporter&) = delete;
 
   /// A run that begins with this window has passed the times before it.
   void begin_at(std::int64_t window);

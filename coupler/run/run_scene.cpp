@@ -3,12 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <nlohmann/json.hpp>
-#include <numeric>
+#include <variant>
 
 #include "core/output/result_writer.hpp"
 #include "core/program/log.hpp"
 #include "core/program/stop.hpp"
+#include "core/steps.hpp"
 #include "coupler/run/checkpoints.hpp"
 #include "coupler/run/choose_scheme.hpp"
 #include "coupler/run/prepared_run.hpp"
@@ -42,25 +45,24 @@ struct Course {
   Span span;
   Reporter& reporter;
   std::optional<RestartPoint>& restart;
-  std::filesystem::path folder;
-  std::optional<double> checkpoint_every;
+  Checkpoints::Plan checkpoints;
 
   /// Windows from the first to the last, or to a request to stop between two of them.
   /// @param start after the first report of a run from time 0
   /// @param compute from the start of this regular window, so many at most; says how many it got over
   template <class Start, class Compute>
   RunStatus run(Session& session, const ArchiveOwnState& archive, Start&& start, Compute&& compute) {
-    Checkpoints checkpoints(session, {.folder = folder, .every = checkpoint_every, .span = span}, archive);
-    if (restart) restart->restore(session, folder, archive);
+    Checkpoints written(session, checkpoints, archive);
+    if (restart) restart->restore(session, checkpoints.folder, archive);
     const std::int64_t first = restart ? restart->window() : 0;
     reporter.begin_at(first);
     for (std::int64_t n = first; n < span.windows();) {
       reporter.at(n);
       if (n == 0) start();
-      checkpoints.at(n);
+      written.at(n);
       if (core::stop_requested()) {
-        checkpoints.write(n);
         reporter.last(n);
+        written.write(n);
         return RunStatus::interrupted;
       }
       n += compute(span.window(n), std::min(reporter.next_due(), span.windows()) - n);
@@ -87,13 +89,37 @@ struct Assembled {
   std::vector<const core::OutputSource*> sources;
 };
 
+/// The folder of the result that a run goes on from, as it is named and where links lead.
+bool holds_checkpoint(const std::filesystem::path& folder, const std::filesystem::path& checkpoint) {
+  std::error_code absent;
+  const auto named = std::filesystem::absolute(checkpoint),
+             real = std::filesystem::weakly_canonical(checkpoint, absent);
+  return std::filesystem::equivalent(folder, named.parent_path(), absent) ||
+         std::filesystem::equivalent(folder, real.parent_path(), absent);
+}
+
 std::filesystem::path folder_of(const RunRequest& request) {
   std::filesystem::path folder = request.options.folder_for(request.scene);
   if (request.restart.empty()) return folder;
   if (request.options.out.empty()) folder += "_restarted";
-  std::error_code absent;
-  if (!std::filesystem::equivalent(folder, request.restart.parent_path(), absent)) return folder;
-  throw core::ConfigError("--out is the folder of the checkpoint, which the new result would replace");
+  if (!holds_checkpoint(folder, request.restart)) return folder;
+  throw core::ConfigError(fmt::format(
+      "'{}' is the folder of the checkpoint, which the new result would replace; choose another with "
+      "--out",
+      folder.string()));
+}
+
+RunIdentity identity_of(const PreparedRun& run) {
+  static constexpr std::array schemes{"serial_explicit", "serial_explicit", "parallel_explicit",
+                                      "serial_implicit", "parallel_implicit"};
+  static_assert(schemes.size() == std::variant_size_v<SchemeScene>);
+  RunIdentity identity{.scene_hash = run.file.hash(),
+                       .scheme = schemes[run.scene.coupling.scheme.index()],
+                       .programs = {{"program of the coupler", "talus " + core::version()}},
+                       .scene = flattened(run.file)};
+  for (const Peer* peer : run.session->peers())
+    identity.programs[std::string("program of the ") + name_of(peer->role())] = peer->declaration().program;
+  return identity;
 }
 
 /// Before time 0, since nobody wants to hear it when the power fails.
@@ -106,8 +132,7 @@ void refuse_missing_checkpoints(const PreparedRun& run, const RunRequest& reques
 
 /// The rows before the checkpoint come from the result it was written in.
 void continue_result(core::ResultWriter& results, const RunRequest& request, double time) {
-  const auto earlier = request.restart.has_parent_path() ? request.restart.parent_path() : ".";
-  const std::int64_t rows = results.take_over(earlier, time);
+  const std::int64_t rows = results.take_over(std::filesystem::absolute(request.restart).parent_path(), time);
   results.summary()["restarted"] = {
       {"from", request.restart.string()}, {"time_s", time}, {"rows_taken_over", rows}};
 }
@@ -120,7 +145,8 @@ core::ResultWriter::Options result_options(const PreparedRun& run, const RunRequ
           .program = "talus " + core::version(),
           .scene = request.scene,
           .scene_hash = run.file.hash(),
-          .frame_capacity = plan.frames ? plan.frames->count(plan.span.windows()) : 0};
+          .frame_capacity = plan.frames ? plan.frames->count(plan.span.windows()) : 0,
+          .energy_error = run.scene.output.energy_error()};
 }
 
 /// What a strong scheme's iterations cost goes into the summary; the others have none.
@@ -129,8 +155,15 @@ void add_tally(nlohmann::json& summary, const Scheme& scheme, double window_leng
   if constexpr (requires { scheme.tally(); }) add_iterations(summary, scheme.tally(), window_length);
 }
 
-double mean_of(const std::vector<double>& values) {
-  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+/// Of the nodes that forces move; 1 kg where none are, and nothing depends on it.
+double mean_mass(const std::vector<double>& masses) {
+  double sum = 0, count = 0;
+  for (const double mass : masses) {
+    if (!(mass > 0) || !std::isfinite(mass)) continue;
+    sum += mass;
+    ++count;
+  }
+  return count > 0 ? sum / count : 1;
 }
 
 template <class Scheme>
@@ -156,7 +189,7 @@ RunStatus compute_coupled(Session& session, Assembled& parts, Scheme& scheme, Co
 RunStatus compute(PreparedRun& run, Assembled& parts, Course& course, nlohmann::json& summary) {
   RunStatus status{};
   if (parts.exchange) {
-    const SchemeFacts facts{.node_mass = mean_of(run.interface->boundary_masses),
+    const SchemeFacts facts{.node_mass = mean_mass(run.interface->boundary_masses),
                             .most_halvings = run.scene.most_halvings()};
     std::visit(SchemeChoice(*parts.exchange, facts,
                             [&](auto& scheme) {
@@ -183,11 +216,14 @@ core::ExitCode run_prepared(PreparedRun& run, const RunRequest& request) {
   refuse_missing_checkpoints(run, request);
   Reporter::Plan plan = plan_of(run);
   std::optional<RestartPoint> restart;
-  if (!request.restart.empty()) restart.emplace(request.restart, plan.span);
+  if (!request.restart.empty()) restart.emplace(request.restart, plan.span).compare(identity_of(run));
   Assembled parts(run);
   core::ResultWriter results(result_options(run, request, plan), parts.sources);
   core::open_log_file(results.folder() / "log.txt");
   for (const auto& warning : warnings_of(run.limits)) core::log_warning(warning);
+  if (const auto words = core::words_about_length("window", run.scene.time.end, run.scene.named_window());
+      !words.empty())
+    core::log_info(words);
   add_facts(results.summary(), run);
   if (restart)
     continue_result(results, request, static_cast<double>(restart->window()) * plan.span.window_length);
@@ -196,14 +232,16 @@ core::ExitCode run_prepared(PreparedRun& run, const RunRequest& request) {
     Course course{.span = plan.span,
                   .reporter = reporter,
                   .restart = restart,
-                  .folder = results.folder(),
-                  .checkpoint_every = run.scene.coupling.checkpoint_every};
+                  .checkpoints = {.folder = results.folder(),
+                                  .every = run.scene.coupling.checkpoint_every,
+                                  .span = plan.span,
+                                  .identity = [&run] { return identity_of(run); }}};
     const RunStatus status = compute(run, parts, course, results.summary());
-    results.finish(status);
+    results.finish(status, status == RunStatus::interrupted ? core::stop_reason() : "");
     core::log_info(closing_words(results.folder()));
     return status == RunStatus::finished ? core::ExitCode::success : core::ExitCode::interrupted;
   } catch (const std::exception& error) {
-    results.finish(RunStatus::failed, error.what());
+    results.give_up(error.what());
     throw;
   }
 }
@@ -211,7 +249,7 @@ core::ExitCode run_prepared(PreparedRun& run, const RunRequest& request) {
 }  // namespace
 
 core::ExitCode run_scene(const RunRequest& request) {
-  core::watch_stop_signals();
+  core::watch_stop_signals("at the end of this window");
   try {
     PreparedRun run =
         prepare({.scene = request.scene, .threads = request.options.threads, .by_hand = request.by_hand});

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "core/steps.hpp"
 #include "coupler/schemes/window.hpp"
 
 namespace talus::coupler {
@@ -11,9 +12,7 @@ namespace talus::coupler {
 struct Span {
   double end = 0;            ///< s
   double window_length = 0;  ///< s
-  /// Windows that cover the span; a rest below a millionth of a window is round-off, a larger one takes
-  /// another window.
-  std::int64_t windows() const { return static_cast<std::int64_t>(std::ceil(end / window_length - 1e-6)); }
+  std::int64_t windows() const { return core::steps_in(end, window_length); }
   /// The regular window number n.
   Window window(std::int64_t n) const { return {.index = n, .unit = window_length}; }
 };

@@ -25,7 +25,14 @@ json to_json(const CheckedLimit& limit) {
 }
 
 json to_json(const Effect& effect, const std::string& side) {
-  return {{"side", side}, {"name", effect.name}, {"present", effect.present}, {"reason", effect.reason}};
+  return {{"side", side},
+          {"name", effect.name},
+          {"present", effect.present},
+          {"reason", effect.reason},
+          {"key", effect.key},
+          {"ledger_line", effect.ledger_line},
+          {"may_hold", effect.may_hold},
+          {"limit", effect.limit}};
 }
 
 json to_json(const Interface& interface) {
@@ -84,6 +91,8 @@ void add_iterations(json& summary, const IterationTally& tally, double window_le
       {"mean", static_cast<double>(tally.iterations) / windows},
       {"most", tally.most},
       {"total", tally.iterations},
+      {"windows", tally.windows},
+      {"in_contact", {{"windows", tally.in_contact}, {"most", tally.most_in_contact}}},
       {"windows_not_converged", tally.not_converged},
       {"windows_halved", tally.halved},
       {"shortest_window_s", std::ldexp(window_length, -static_cast<int>(tally.most_halvings))}};

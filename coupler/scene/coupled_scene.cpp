@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 
+#include "core/steps.hpp"
 #include "core/units/units.hpp"
 
 namespace talus::coupler {
@@ -54,9 +55,13 @@ void check_windows(const CoupledScene& scene, const Complain& complain) {
              fmt::format("must be at most half a window of {}", core::readable(scene.window(), "s")));
 }
 
-constexpr double round_off = 1e-9;  // of a ratio of two times in a scene
+constexpr double round_off = core::whole_ratio;
 
 }  // namespace
+
+double CoupledScene::window() const {
+  return named_window() > 0 ? core::equal_steps(time.end, named_window()).length : 0;
+}
 
 std::int64_t CoupledScene::longest_window() const {
   if (!coupling.longest_window) return 1;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 
 #include "core/errors.hpp"
 #include "core/output/checkpoint.hpp"
@@ -10,7 +11,7 @@
 namespace talus::coupler {
 namespace {
 
-/// Change over what is allowed.
+/// Change over what is allowed; infinite where a value is none.
 double ratio_of(const FieldChange& field, double relative, double absolute) {
   double change = 0, size = 0;
   for (std::size_t i = 0; i < field.after.size(); ++i) {
@@ -18,7 +19,10 @@ double ratio_of(const FieldChange& field, double relative, double absolute) {
     change += difference * difference;
     size += field.after[i] * field.after[i];
   }
-  return field.unit * std::sqrt(change) / std::fmax(absolute, relative * field.unit * std::sqrt(size));
+  if (change == 0) return 0;
+  const double ratio =
+      field.unit * std::sqrt(change) / std::fmax(absolute, relative * field.unit * std::sqrt(size));
+  return std::isfinite(ratio) ? ratio : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace
@@ -32,8 +36,7 @@ Convergence::Verdict Convergence::judge(const std::array<FieldChange, 3>& change
   Verdict verdict;
   for (const auto& field : changes) {
     const double ratio = ratio_of(field, relative, absolute[static_cast<std::size_t>(field.name)]);
-    // Written so that a ratio that is no number is the worst of all.
-    if (!(ratio <= verdict.ratio)) verdict = {.worst = field.name, .ratio = ratio};
+    if (ratio > verdict.ratio) verdict = {.worst = field.name, .ratio = ratio};
   }
   return verdict;
 }
@@ -54,6 +57,8 @@ void IterationTally::archive(core::StateArchive& archive) {
   archive.count("iterations", iterations);
   archive.count("windows_not_converged", not_converged);
   archive.count("most_iterations", most);
+  archive.count("windows_in_contact", in_contact);
+  archive.count("most_iterations_in_contact", most_in_contact);
   archive.count("windows_halved", halved);
   archive.count("most_halvings", most_halvings);
 }

@@ -37,9 +37,11 @@ const char* name_of(FieldName field);
 /// What the windows of a strong scheme cost.
 struct IterationTally {
   std::int64_t windows = 0, iterations = 0, not_converged = 0;
-  std::int64_t most = 0;           ///< iterations of the worst window
-  std::int64_t halved = 0;         ///< windows that were taken back and computed as two halves
-  std::int64_t most_halvings = 0;  ///< of the shortest window
+  std::int64_t most = 0;             ///< iterations of the worst window
+  std::int64_t in_contact = 0;       ///< windows at whose end forces act between the sides
+  std::int64_t most_in_contact = 0;  ///< iterations of the worst of these
+  std::int64_t halved = 0;           ///< windows that were taken back and computed as two halves
+  std::int64_t most_halvings = 0;    ///< of the shortest window
   void archive(core::StateArchive& archive);
 };
 

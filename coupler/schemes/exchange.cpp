@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "core/output/checkpoint.hpp"
-#include "coupler/work_meter.hpp"
 
 namespace talus::coupler {
 namespace {
@@ -32,8 +31,14 @@ Exchange::Exchange(Session& session, const mesh::Mapping& mapping)
       particles_(side(session, Role::particles)),
       one_set_(structure_.force.data() == particles_.force.data()) {}
 
+Command Exchange::advance_of_particles(const Window& window, std::optional<int> iteration) const {
+  Command command = advance(window, iteration);
+  command.force_shift = structure_.peer.declaration().force_shift(window.length());
+  return command;
+}
+
 void Exchange::advance_particles(const Window& window, std::optional<int> iteration) {
-  session_.ask(particles_.peer, advance(window, iteration));
+  session_.ask(particles_.peer, advance_of_particles(window, iteration));
 }
 
 void Exchange::advance_structure(const Window& window, std::optional<int> iteration) {
@@ -41,7 +46,7 @@ void Exchange::advance_structure(const Window& window, std::optional<int> iterat
 }
 
 void Exchange::advance_both(const Window& window, std::optional<int> iteration) {
-  session_.post(particles_.peer, advance(window, iteration));
+  session_.post(particles_.peer, advance_of_particles(window, iteration));
   session_.post(structure_.peer, advance(window, iteration));
   session_.wait_answer(particles_.peer);
   session_.wait_answer(structure_.peer);
@@ -49,6 +54,8 @@ void Exchange::advance_both(const Window& window, std::optional<int> iteration) 
 
 void Exchange::save_states(const Window& window) {
   structure_start_.assign(structure_.displacement.begin(), structure_.displacement.end());
+  structure_start_velocity_.assign(structure_.velocity.begin(), structure_.velocity.end());
+  saved_length_ = window.length();
   force_start_.assign(particles_.force.begin(), particles_.force.end());
   session_.ask_all(command_at(window, Action::save_state));
 }
@@ -101,10 +108,21 @@ void Exchange::motion_to_boundary_end() {
 
 void Exchange::accept_window() {
   particles_.peer.work() +=
-      work_on_path(particles_.force, particles_.displacement, particles_.end_displacement);
-  structure_.peer.work() += work_on_path(structure_.force, structure_start_, structure_.displacement);
+      work_of(particles_, {particles_.displacement, particles_.velocity}, particles_.end_displacement);
+  structure_.peer.work() +=
+      work_of(structure_, {structure_start_, structure_start_velocity_}, structure_.displacement);
   mapping_.to_boundary(structure_.displacement, particles_.displacement);
   mapping_.to_boundary(structure_.velocity, particles_.velocity);
+}
+
+double Exchange::work_of(const Side& side, const WorkMeter::Motion& start,
+                         std::span<const double> end) const {
+  if (const auto told = side.peer.window_work()) return *told;
+  const Declaration& declaration = side.peer.declaration();
+  const bool at_start =
+      declaration.force_use == ForceUse::kicks && !declaration.takes_several_steps(saved_length_);
+  return WorkMeter({at_start ? ForceMeaning::at_start : ForceMeaning::mean, saved_length_}, side.force, start)
+      .end(side.force, end);
 }
 
 void Exchange::archive(core::StateArchive& archive) {

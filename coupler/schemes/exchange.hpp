@@ -6,6 +6,7 @@
 
 #include "coupler/schemes/commands.hpp"
 #include "coupler/session/session.hpp"
+#include "coupler/work_meter.hpp"
 #include "interface_mesh/mapping.hpp"
 
 namespace talus::core {
@@ -83,12 +84,18 @@ class Exchange {
   bool touching() const;
 
  private:
+  /// Says, too, at which time level the structure wants the forces.
+  Command advance_of_particles(const Window& window, std::optional<int> iteration) const;
+  /// J; of a window that was taken back or might have been: what the side says, else the sum over its nodes.
+  double work_of(const Side& side, const WorkMeter::Motion& start, std::span<const double> end) const;
+
   Session& session_;
   const mesh::Mapping& mapping_;
   Side structure_, particles_;
-  bool one_set_;                         ///< both sides have the same arrays
-  std::vector<double> structure_start_;  ///< m; displacement when the states were saved
-  std::vector<double> force_start_;      ///< N; on the boundary then
+  bool one_set_;                                                    ///< both sides have the same arrays
+  std::vector<double> structure_start_, structure_start_velocity_;  ///< m, m/s; when the states were saved
+  double saved_length_ = 0;                                         ///< s; of the window that begins there
+  std::vector<double> force_start_;                                 ///< N; on the boundary then
   bool touched_ = false;
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -56,10 +57,12 @@ class Implicit {
       ++tally_.halved;
       return false;
     }
-    if (!outcome.verdict.converged() && convergence_.fail_otherwise)
+    const bool may_go_on = !convergence_.fail_otherwise && std::isfinite(outcome.verdict.ratio);
+    if (!outcome.verdict.converged() && !may_go_on)
       fail_not_converged(window, outcome.iterations, outcome.verdict);
+    if (!outcome.verdict.converged()) acceleration_.forget();  // what was learnt in it misleads
     exchange.accept_window();
-    count(window, outcome);
+    count(window, outcome, exchange.touching());
     return true;
   }
 
@@ -78,6 +81,7 @@ class Implicit {
       outcome.verdict = convergence_.judge(unknown_.changes(window));
       ++outcome.iterations;
       if (outcome.verdict.converged() || outcome.iterations == convergence_.most_iterations) return outcome;
+      if (!std::isfinite(outcome.verdict.ratio)) return outcome;  // no iteration leads back from there
       least = std::min(least, outcome.verdict.ratio);
       if (may_be_halved(window) && outcome.verdict.ratio > hopeless * least) return outcome;
       correct(exchange);
@@ -96,11 +100,16 @@ class Implicit {
       // Without forces the sides do not hear of each other: what they made is the fixed point, unless they
       // touch there.
       std::copy(unknown_.made().begin(), unknown_.made().end(), unknown_.x().begin());
+      acceleration_.step_aside();
     }
   }
 
-  void count(const Window& window, const Outcome& outcome) {
+  void count(const Window& window, const Outcome& outcome, bool in_contact) {
     ++tally_.windows;
+    if (in_contact) {
+      ++tally_.in_contact;
+      tally_.most_in_contact = std::max<std::int64_t>(tally_.most_in_contact, outcome.iterations);
+    }
     tally_.most = std::max<std::int64_t>(tally_.most, outcome.iterations);
     tally_.most_halvings = std::max(tally_.most_halvings, window.halvings);
     if (!outcome.verdict.converged()) ++tally_.not_converged;

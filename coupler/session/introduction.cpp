@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <tuple>
 
+#include "core/steps.hpp"
+
 namespace talus::coupler {
 namespace {
 
@@ -46,7 +48,7 @@ ByteView expect(const transport::Message& message, MessageKind kind, const Peer&
 
 PublishedSurface hear_surface(Session& session, Peer& structure) {
   const auto message = session.receive(structure, "its surface");
-  return decode_surface(expect(message, MessageKind::surface, structure, "its surface"));
+  return decode_surface(expect(message, MessageKind::surface, structure, "its surface"), structure.label());
 }
 
 void hear_request(Session& session, Peer& particles) {
@@ -104,8 +106,8 @@ std::optional<Interface> introduce(Session& session, const std::optional<Interfa
   for (Peer* peer : session.peers()) {
     all.collect([&] {
       const auto message = session.receive(*peer, "its declaration");
-      peer->set_declaration(
-          decode_declaration(expect(message, MessageKind::declaration, *peer, "its declaration")));
+      peer->set_declaration(decode_declaration(
+          expect(message, MessageKind::declaration, *peer, "its declaration"), peer->label()));
     });
   }
   all.throw_if_any();
@@ -128,6 +130,14 @@ bool needs_free_velocity(Session& session, double window_length) {
                   structure->declaration().program));
 }
 
+/// Particles look at the window's end where they take several steps, and where the structure wants forces of
+/// times beyond the middle of their only step.
+bool needs_boundary_end(const Declaration& particles, const Declaration& structure,
+                        const WindowLengths& windows) {
+  const double half = 0.5 * windows.regular, shift = structure.force_shift(windows.regular);
+  return particles.takes_several_steps(windows.longest) || shift < half * (1 - core::whole_ratio);
+}
+
 void lay_out_arrays(Session& session, const std::optional<Interface>& interface, const WindowLengths& windows,
                     Order order) {
   const bool free_velocity = needs_free_velocity(session, windows.regular);
@@ -147,7 +157,8 @@ void lay_out_arrays(Session& session, const std::optional<Interface>& interface,
     }
     if (free_velocity) Session::request_array(*peer, ArrayName::free_velocity, values);
     if (is_structure) continue;
-    needs_end = iterated || peer->declaration().takes_several_steps(windows.longest);
+    needs_end = iterated || needs_boundary_end(peer->declaration(),
+                                               session.find(Role::structure)->declaration(), windows);
     if (!needs_end) continue;
     Session::request_array(*peer, ArrayName::end_displacement, values);
     Session::request_array(*peer, ArrayName::end_velocity, values);

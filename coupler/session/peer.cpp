@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <signal.h>
+#include <unistd.h>
 
 #include <algorithm>
 
@@ -45,6 +46,11 @@ std::string Peer::label() const {
   return pid > 0 ? fmt::format("{} ({}pid {})", name_of(role_), program, pid) : std::string(name_of(role_));
 }
 
+pid_t Peer::pid() const {
+  if (channel_.pid > 0) return channel_.pid == getpid() ? 0 : static_cast<pid_t>(channel_.pid);
+  return child_ ? child_->pid() : 0;
+}
+
 bool Peer::has_failed() const {
   return load(channel_.state) == static_cast<std::uint32_t>(ChannelState::failed);
 }
@@ -75,6 +81,12 @@ void Peer::watch_process() {
 bool Peer::process_ended() {
   return child_ ? child_->status().has_value() && !(process_.pid() > 0 && process_.alive())
                 : process_.pid() == 0 || !process_.alive();
+}
+
+void Peer::ask_to_end() {
+  process_.send_signal(SIGTERM);
+  process_.send_signal(SIGCONT);
+  if (child_) child_->ask_to_end();
 }
 
 void Peer::kill() {

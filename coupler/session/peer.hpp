@@ -21,6 +21,8 @@ class Peer {
 
   Role role() const { return role_; }
   std::string label() const;  ///< "structure (fem_solver, pid 1234)"
+  /// The process that computes: the one that joined, else the one that was started; 0: a thread of this process.
+  pid_t pid() const;
   void set_program(std::string name) { program_ = std::move(name); }
   void set_child(launch::Child child) { child_.emplace(std::move(child)); }
   launch::Child* child() { return child_ ? &*child_ : nullptr; }
@@ -33,7 +35,8 @@ class Peer {
   /// Called once it has joined: from now on its own process is watched too, be it a child or not.
   void watch_process();
   bool process_ended();
-  void kill();
+  void ask_to_end();  ///< SIGTERM, to its whole process group where it is a child
+  void kill();        ///< SIGKILL, likewise
 
   /// Interface and output arrays; valid once the data block exists.
   std::span<double> array(transport::ArrayName name) const { return arrays_[static_cast<std::size_t>(name)]; }
@@ -41,6 +44,10 @@ class Peer {
   /// Done on this side's surface since time 0, J; the coupler's to change between an answer and the next
   /// command.
   double& work() const { return channel_.work; }
+  /// J; of the window computed last, from the peer's own ledger; nothing where it keeps none.
+  std::optional<double> window_work() const {
+    return channel_.books_work != 0 ? std::optional(channel_.window_work) : std::nullopt;
+  }
   /// Windows it was asked to compute since the start, those taken back included, and how often it evaluated
   /// its forces for them (0 where it does not tell).
   std::int64_t calls() const { return calls_; }

@@ -7,16 +7,43 @@
 #include <filesystem>
 
 #include "core/errors.hpp"
+#include "core/program/log.hpp"
 #include "coupler/transport/signal.hpp"
 
 namespace talus::coupler {
 
 using namespace transport;
 
+namespace {
+
+std::string in_brackets(const std::string& condition) {
+  return condition.empty() ? "" : " (" + condition + ")";
+}
+
+/// ". The outputs of the structure take 61.2 MB, its interface 0.3 MB": for who wonders what is so large.
+std::string what_needs_room(const std::vector<std::unique_ptr<Peer>>& peers) {
+  std::string text;
+  for (const auto& peer : peers) {
+    const auto& slots = peer->channel().arrays;
+    const std::uint64_t outputs = slots[static_cast<std::size_t>(ArrayName::outputs)].count;
+    std::uint64_t all = 0;
+    for (const ArraySlot& slot : slots) all += slot.count;
+    const auto megabytes = [](std::uint64_t values) {
+      return 1e-6 * sizeof(double) * static_cast<double>(values);
+    };
+    text += fmt::format(". The outputs of the {} (tables, fields) take {:.3g} MB, its interface {:.3g} MB",
+                        name_of(peer->role()), megabytes(outputs), megabytes(all - outputs));
+  }
+  return text;
+}
+
+}  // namespace
+
 Session::Session(std::shared_ptr<Segment> segment, SessionOptions options)
     : segment_(std::move(segment)),
       options_(std::move(options)),
-      control_(initialise(segment_->control(), segment_->name().starts_with("talus-"))) {
+      control_(initialise(segment_->control(), segment_->name().starts_with("talus-"))),
+      heartbeat_(control_.header.heartbeat) {
   if (!segment_->name().starts_with("talus-")) return;
   const ProcessIdentity self = this_process();
   control_.header.coupler_start = self.start;
@@ -82,17 +109,18 @@ void Session::check_alive(const Waiting& waiting) {
 }
 
 void Session::look_around(const Waiting& waiting, double seconds) {
-  std::atomic_ref(control_.header.heartbeat).fetch_add(1, std::memory_order_relaxed);
   check_alive(waiting);
   if (phase_ != Phase::running && options_.interrupted()) throw Interrupted{};
+  patience_.look(waiting.peer.pid(), seconds);
+  if (patience_.time_to_tell())
+    tell_wait_(fmt::format("waits {:.0f} s for {}: {}{}", seconds, waiting.peer.label(), waiting.what,
+                           in_brackets(patience_.condition())));
   if (seconds <= waiting.limit) return;
-  const auto pid = static_cast<pid_t>(waiting.peer.channel().pid);
-  const std::string condition = pid > 0 ? fmt::format("; its process {}", process_condition(pid)) : "";
-  throw core::TransportError(
-      {.peer = waiting.peer.label(),
-       .waited_for = waiting.what,
-       .window = window_,
-       .reason = fmt::format("gave no answer for {:g} s (hangs{})", waiting.limit, condition)});
+  throw core::TransportError({.peer = waiting.peer.label(),
+                              .waited_for = waiting.what,
+                              .window = window_,
+                              .reason = fmt::format("gave no answer for {:g} s{}", waiting.limit,
+                                                    in_brackets(patience_.condition()))});
 }
 
 void Session::wait_joined() {
@@ -143,7 +171,11 @@ void Session::create_arrays(ArraySets sets) {
     }
   }
   phase_ = Phase::running;
-  segment_->create_data(bytes);
+  try {
+    segment_->create_data(bytes);
+  } catch (const core::MachineError& error) {
+    throw core::MachineError(error.what() + what_needs_room(peers_));
+  }
   control_.header.data_bytes = bytes;
   for (const auto& peer : peers_) peer->set_arrays(segment_->data());
 }
@@ -162,6 +194,7 @@ void Session::post(Peer& peer, const Command& command) {
   record.time = command.time;
   record.length = command.length;
   record.regular_length = command.regular_length;
+  record.force_shift = command.force_shift;
   std::memcpy(record.path.data(), command.path.c_str(), command.path.size() + 1);
   window_ = command.window;
   action_ = command.action;
@@ -232,9 +265,14 @@ void Session::abort(const std::string& why) noexcept {
   store(header.state, static_cast<std::uint32_t>(RunState::aborted));
   for (const auto& peer : peers_) transport::post(peer->channel().command_posted);
   segment_->remove_name();
-  if (everybody_left(options_.grace)) return;
+  if (!everybody_left(options_.grace)) {
+    for (const auto& peer : peers_)
+      if (!peer->process_ended()) peer->ask_to_end();
+    everybody_left(launch::patience);
+  }
   for (const auto& peer : peers_) {
     if (!peer->process_ended()) peer->kill();
+    if (peer->child() != nullptr) peer->child()->end();
   }
 }
 

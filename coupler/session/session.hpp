@@ -5,6 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "core/program/log.hpp"
+#include "coupler/session/heartbeat.hpp"
+#include "coupler/session/patience.hpp"
 #include "coupler/session/peer.hpp"
 #include "coupler/transport/segment.hpp"
 
@@ -20,7 +23,7 @@ enum class ArraySets { one_each, one };
 struct SessionOptions {
   double timeout = 300;      ///< s that a participant may take for an answer
   double join_timeout = 60;  ///< s from the start until a participant has joined
-  double grace = 1;          ///< s that participants get to leave before they are killed
+  double grace = 1;          ///< s that participants get to leave before they are asked to by SIGTERM
   std::function<bool()> interrupted = [] { return false; };
 };
 
@@ -66,11 +69,14 @@ class Session {
     for (const auto& peer : peers_) wait_answer(*peer);
   }
   std::int64_t window() const { return window_; }
+  /// Who says it when a wait becomes long: "waits 20 s for structure (fem_solver, pid 12): the answer to
+  /// 'advance' (computing, 98 % CPU)".
+  void tell_waits_to(std::function<void(const std::string&)> tell) { tell_wait_ = std::move(tell); }
 
   /// Tells everybody to leave and waits until they did. @throws TransportError if one of them ends badly
   void finish();
-  /// Tells everybody why the run ends; participants that do not leave within the grace are killed.
-  /// Idempotent.
+  /// Tells everybody why the run ends; participants that do not leave within the grace are sent SIGTERM, then
+  /// SIGKILL. Idempotent.
   void abort(const std::string& why) noexcept;
 
  private:
@@ -91,6 +97,9 @@ class Session {
   std::shared_ptr<transport::Segment> segment_;
   SessionOptions options_;
   transport::Control& control_;
+  Heartbeat heartbeat_;
+  Patience patience_;
+  std::function<void(const std::string&)> tell_wait_ = core::log_info;
   std::vector<std::unique_ptr<Peer>> peers_;
   Phase phase_ = Phase::joining;
   std::int64_t window_ = -1;

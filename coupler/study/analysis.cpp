@@ -4,32 +4,30 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <map>
 #include <nlohmann/json.hpp>
-#include <optional>
 
-#include "core/errors.hpp"
-#include "core/units/units.hpp"
+#include "coupler/study/outcome.hpp"
+#include "coupler/study/quantity.hpp"
 #include "coupler/study/runner.hpp"
-#include "coupler/study/values.hpp"
 
 namespace talus::study {
 namespace {
 
-namespace fs = std::filesystem;
 using nlohmann::json;
 
-constexpr std::array budgets{0.1, 1.0, 10.0};  // s
-constexpr std::array wanted_errors{0.1, 0.01, 1e-3, 1e-4, 1e-5};
-constexpr double trust = 10;  // the floor must be this much below the smallest error shown
+double median(const std::vector<double>& sorted) {
+  const std::size_t middle = sorted.size() / 2;
+  return sorted.size() % 2 ? sorted[middle] : (sorted[middle - 1] + sorted[middle]) / 2;
+}
 
-json timing(std::vector<double> seconds) {
-  if (seconds.empty()) return nullptr;
-  std::sort(seconds.begin(), seconds.end());
-  const std::size_t middle = seconds.size() / 2;
-  const double median = seconds.size() % 2 ? seconds[middle] : (seconds[middle - 1] + seconds[middle]) / 2;
-  return {{"median", median}, {"least", seconds.front()}, {"most", seconds.back()}, {"runs", seconds.size()}};
+/// Null of no values.
+json spread(std::vector<double> values) {
+  if (values.empty()) return nullptr;
+  std::ranges::sort(values);
+  return {{"median", median(values)},
+          {"least", values.front()},
+          {"most", values.back()},
+          {"runs", values.size()}};
 }
 
 /// The portable cost: what summary.json counts under "work", e.g. solver calls and force evaluations.
@@ -37,209 +35,128 @@ json work_of(const json& point) {
   return point.value("/summary/work"_json_pointer, json::object());
 }
 
-json described(const PlannedRun& run, const json& point) {
-  json all{{"id", run.id},         {"method", run.method}, {"value", run.value}, {"position", run.position},
-           {"across", run.across}, {"shown", run.shown}};
-  all["outcome"] = point.is_null() ? "missing" : point.at("outcome");
-  all["message"] = point.is_null() ? "not run yet" : point.at("message");
-  if (all["outcome"] != name_of(Outcome::ok)) return all;
-  all["loop_seconds"] = timing(point.at("loop_seconds"));
-  all["process_seconds"] = timing(point.at("process_seconds"));
-  all["energy_error"] = point.value("/summary/energy/error_relative"_json_pointer, json(nullptr));
+/// What is known of a planned run before one looks at what it left.
+json announced(const PlannedRun& run) {
+  return {{"id", run.id},         {"method", run.method}, {"value", run.value}, {"position", run.position},
+          {"across", run.across}, {"shown", run.shown}};
+}
+
+void set_outcome(json& point, const Worth& worth) {
+  point["outcome"] = name_of(worth.outcome);
+  point["detail"] = worth.detail;
+  point["message"] = worth.message;
+}
+
+json described(const PlannedRun& run, const json& point, double largest_energy_error,
+               const json& fingerprint) {
+  json all = announced(run);
+  if (point.is_null()) {
+    set_outcome(all, {.detail = "not run yet", .message = {}});
+    return all;
+  }
+  const std::string change = difference(point.at("fingerprint"), fingerprint);
+  if (!is_same_scene(point.at("fingerprint"), fingerprint)) {
+    set_outcome(all, {.detail = "stale", .message = change + " since it was computed"});
+    return all;
+  }
+  if (!change.empty()) all["stale"] = change;
+  const Worth worth = worth_of(point, largest_energy_error);
+  set_outcome(all, worth);
+  if (!worth.has_values()) return all;
+  all["not_converged"] = share_not_converged(point.at("summary"));
+  all["loop_seconds"] = spread(point.at("loop_seconds"));
+  all["process_seconds"] = spread(point.at("process_seconds"));
+  all["energy_error"] = point.value("/summary/energy/largest_error_relative"_json_pointer, json(nullptr));
   all["work"] = work_of(point);
   return all;
 }
 
-/// Points may have been run on several machines; each is listed once, with its least load.
-void add_machine(json& machines, const json& machine) {
-  for (auto& known : machines) {
-    if (known.at("processor") != machine.at("processor") ||
-        known.at("cores_used") != machine.at("cores_used"))
-      continue;
-    known["load_before"] =
-        std::min(known.at("load_before").get<double>(), machine.at("load_before").get<double>());
-    return;
-  }
-  machines.push_back(machine);
-}
-
-/// One quantity's way through the study.
-class QuantityAnalysis {
+/// Points may have been run on several machines; each is listed once, with the loads that all its runs met.
+class Machines {
  public:
-  QuantityAnalysis(const StudyScene& study, const Quantity& quantity, const fs::path& runs)
-      : study_(study), quantity_(quantity), runs_(runs) {}
-
-  json operator()(const std::string& name, const json& points) {
-    points_ = &points;
-    json result{{"name", name}, {"history", std::holds_alternative<HistoryQuantity>(quantity_.source)}};
-    const auto exact = ideal();
-    const auto reference = exact ? Values{{}, {*exact}} : limit(*study_.reference, result);
-    if (!reference) return result;
-    if (!result["history"]) result["reference"] = reference->numbers.front();
-    if (study_.second && !exact) add_floor(*reference, result);
-    add_errors(*reference, exact.has_value(), result);
-    return result;
+  void add(const json& point) {
+    const json& machine = point.at("machine");
+    auto known = std::ranges::find_if(all_, [&](const auto& entry) { return entry.first == machine; });
+    if (known == all_.end()) {
+      all_.emplace_back(machine, std::vector<double>{});
+      known = std::prev(all_.end());
+    }
+    for (const auto& load : point.at("load_before")) known->second.push_back(load.get<double>());
+  }
+  json list() const {
+    json list = json::array();
+    for (auto [machine, loads] : all_) {
+      machine["load_before"] = spread(loads);
+      list.push_back(machine);
+    }
+    return list;
   }
 
  private:
-  std::optional<double> ideal() const {
-    const auto* summary = std::get_if<SummaryQuantity>(&quantity_.source);
-    return summary ? summary->ideal : std::nullopt;
-  }
-  std::optional<Values> values_of(const std::string& method, const std::string& value) const {
-    for (const auto& point : *points_)
-      if (point.at("method") == method && point.at("value") == value &&
-          point.at("outcome") == name_of(Outcome::ok))
-        return read_values(quantity_, runs_ / point.at("id").get<std::string>() / "result");
-    return std::nullopt;
-  }
-  double position(const std::string& value) const {
-    return core::parse_quantity(value, study_.sweep.unit).value_or(0);
-  }
-
-  /// The extrapolation of a reference's two finest runs; says why there is none.
-  std::optional<Values> limit(const Reference& reference, json& result) const {
-    const auto& values = reference.values;
-    const auto fine = values_of(reference.method, values.back()),
-               coarse = values_of(reference.method, values[values.size() - 2]);
-    if (!fine || !coarse) {
-      result["note"] =
-          fmt::format("the runs of '{}' that the reference needs did not succeed", reference.method);
-      return std::nullopt;
-    }
-    const double ratio = position(values[values.size() - 2]) / position(values.back());
-    if (!(ratio > 1)) throw core::ConfigError("the values of a reference must go from coarse to fine");
-    if (fine->times.empty() && values.size() > 2)
-      if (const auto coarsest = values_of(reference.method, values[values.size() - 3]))
-        if (const auto order = observed_order(
-                {fine->numbers.front(), coarse->numbers.front(), coarsest->numbers.front()}, ratio))
-          result["observed_order"] = *order;
-    return extrapolate(*fine, *coarse, {ratio, reference.order});
-  }
-  void add_floor(const Values& reference, json& result) const {
-    if (const auto second = limit(*study_.second, result))
-      result["floor"] = relative_difference(*second, reference);
-  }
-
-  void add_errors(const Values& reference, bool absolute, json& result) const {
-    std::vector<Point> found;
-    result["points"] = json::array();
-    for (const auto& point : *points_) {
-      if (!point.at("shown").get<bool>() || point.at("outcome") != name_of(Outcome::ok)) continue;
-      const auto values = *values_of(point.at("method"), point.at("value"));
-      const double error = absolute ? std::abs(values.numbers.front() - reference.numbers.front())
-                                    : relative_difference(values, reference);
-      found.push_back({point.at("method"), error, point.at("loop_seconds").at("median")});
-      json entry{{"id", point.at("id")},
-                 {"method", point.at("method")},
-                 {"position", point.at("position")},
-                 {"value", point.at("value")},
-                 {"error", error},
-                 {"seconds", found.back().seconds}};
-      if (reference.times.empty()) entry["number"] = values.numbers.front();
-      result["points"].push_back(entry);
-    }
-    const auto front = pareto_front(found);
-    for (std::size_t i = 0; i < found.size(); ++i) result["points"][i]["front"] = static_cast<bool>(front[i]);
-    add_tables(found, result);
-    add_trust(found, result);
-  }
-  static void add_trust(const std::vector<Point>& found, json& result) {
-    if (!result.contains("floor") || found.empty()) return;
-    const auto least = std::min_element(found.begin(), found.end(),
-                                        [](const auto& a, const auto& b) { return a.error < b.error; });
-    result["trusted"] = trust * result.at("floor").get<double>() <= least->error;
-  }
-
-  /// Of the points that `fits` lets pass, each method's best by `cost`, and the winner among them.
-  template <class Fits, class Cost>
-  static json best(const std::vector<Point>& points, Fits&& fits, Cost&& cost) {
-    json methods = json::object();
-    const Point* winner = nullptr;
-    for (const auto& point : points) {
-      if (!fits(point)) continue;
-      auto& entry = methods[point.method];
-      if (entry.is_null() || cost(point) < entry.get<double>()) entry = cost(point);
-      if (!winner || cost(point) < cost(*winner)) winner = &point;
-    }
-    return {{"methods", methods}, {"winner", winner ? json(winner->method) : json(nullptr)}};
-  }
-  static void add_tables(const std::vector<Point>& points, json& result) {
-    for (const double seconds : budgets) {
-      json row = best(
-          points, [&](const Point& p) { return p.seconds <= seconds; },
-          [](const Point& p) { return p.error; });
-      row["seconds"] = seconds;
-      result["most_exact_within"].push_back(row);
-    }
-    for (const double error : wanted_errors) {
-      json row = best(
-          points, [&](const Point& p) { return p.error <= error; }, [](const Point& p) { return p.seconds; });
-      row["error"] = error;
-      result["fastest_to"].push_back(row);
-    }
-  }
-
-  const StudyScene& study_;
-  const Quantity& quantity_;
-  const fs::path& runs_;
-  const json* points_ = nullptr;
+  std::vector<std::pair<json, std::vector<double>>> all_;
 };
+
+const std::string& label_of(const Sweep& sweep) {
+  return sweep.label.empty() ? sweep.keys.front() : sweep.label;
+}
+
+std::string in_quotes(std::string text) {
+  for (auto place = text.find('"'); place != std::string::npos; place = text.find('"', place + 2))
+    text.insert(place, 1, '"');
+  return text.find_first_of(",\"\n") == std::string::npos ? text : '"' + text + '"';
+}
+
+/// The point's entry among a quantity's; null where it has none.
+const json* entry_of(const json& quantity, const json& point) {
+  if (!quantity.contains("points")) return nullptr;
+  for (const auto& entry : quantity.at("points"))
+    if (entry.at("id") == point.at("id")) return &entry;
+  return nullptr;
+}
 
 }  // namespace
 
-std::vector<bool> pareto_front(const std::vector<Point>& points) {
-  std::vector<bool> front(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i)
-    front[i] = std::none_of(points.begin(), points.end(), [&](const Point& other) {
-      const auto& own = points[i];
-      const bool not_worse = other.error <= own.error && other.seconds <= own.seconds;
-      return not_worse && (other.error < own.error || other.seconds < own.seconds);
-    });
-  return front;
-}
-
-json analyse(const LoadedStudy& study, const std::vector<PlannedRun>& runs, const fs::path& runs_folder) {
-  const auto& sweep = study.scene.sweep;
+json analyse(const LoadedStudy& study, const std::vector<PlannedRun>& runs, const PointStore& store) {
+  const StudyScene& scene = study.scene;
   json all{{"title", study.title},
-           {"base", study.scene.base.filename().string()},
-           {"sweep", sweep.label.empty() ? sweep.keys.front() : sweep.label},
-           {"unit", sweep.unit},
-           {"repeats", study.scene.repeats},
-           {"threads", study.scene.threads},
+           {"base", scene.base.filename().string()},
+           {"sweep", label_of(scene.sweep)},
+           {"unit", scene.sweep.unit},
+           {"repeats", scene.repeats},
+           {"threads", scene.threads},
+           {"largest_energy_error", scene.largest_energy_error},
            {"points", json::array()},
-           {"machines", json::array()},
            {"quantities", json::array()}};
-  if (study.scene.across)
-    all["across"] =
-        study.scene.across->label.empty() ? study.scene.across->keys.front() : study.scene.across->label;
+  if (scene.across) all["across"] = label_of(*scene.across);
+  Machines machines;
   for (const auto& run : runs) {
-    const json point = read_point(run, runs_folder);
-    all["points"].push_back(described(run, point));
-    if (!point.is_null()) add_machine(all["machines"], point.at("machine"));
+    const json point = read_point(run, store.folder);
+    all["points"].push_back(described(run, point, scene.largest_energy_error, store.fingerprints.of(run)));
+    if (all["points"].back().contains("loop_seconds")) machines.add(point);
   }
-  for (const auto& [name, quantity] : study.scene.quantities)
-    all["quantities"].push_back(QuantityAnalysis(study.scene, quantity, runs_folder)(name, all["points"]));
+  all["machines"] = machines.list();
+  for (const auto& quantity : scene.quantities)
+    all["quantities"].push_back(quantity_analysis(scene, quantity, all["points"], store.folder));
   return all;
 }
 
 std::string to_csv(const json& analysis) {
-  std::string text = "method,value,position,across,outcome,seconds_median,seconds_least,seconds_most";
+  std::string text =
+      "method,value,position,across,outcome,detail,runs,seconds_median,seconds_least,seconds_most";
+  constexpr std::array errors{"error", "error_low", "error_high"};
   for (const auto& quantity : analysis.at("quantities"))
-    text += ",error_" + quantity.at("name").get<std::string>();
+    for (const char* which : errors)
+      text += fmt::format(",{}_{}", which, quantity.at("name").get<std::string>());
   for (const auto& point : analysis.at("points")) {
     if (!point.at("shown").get<bool>()) continue;
-    text += fmt::format("\n{},{},{},{},{}", point.at("method").get<std::string>(),
-                        point.at("value").get<std::string>(), point.at("position").get<double>(),
-                        point.at("across").get<std::string>(), point.at("outcome").get<std::string>());
-    for (const char* which : {"median", "least", "most"})
-      text += point.contains("loop_seconds")
-                  ? fmt::format(",{}", point.at("loop_seconds").at(which).get<double>())
-                  : ",";
+    text += "\n" + in_quotes(point.at("method")) + "," + in_quotes(point.at("value")) +
+            fmt::format(",{},", point.at("position").get<double>()) + in_quotes(point.at("across"));
+    for (const char* key : {"outcome", "detail"}) text += "," + in_quotes(point.at(key));
+    for (const char* which : {"runs", "median", "least", "most"})
+      text += point.contains("loop_seconds") ? "," + point.at("loop_seconds").at(which).dump() : ",";
     for (const auto& quantity : analysis.at("quantities")) {
-      text += ',';
-      for (const auto& entry : quantity.value("points", json::array()))
-        if (entry.at("id") == point.at("id")) text += fmt::format("{}", entry.at("error").get<double>());
+      const json* entry = entry_of(quantity, point);
+      for (const char* which : errors) text += entry ? "," + entry->at(which).dump() : ",";
     }
   }
   return text + "\n";

@@ -5,25 +5,25 @@
 #include <string>
 #include <vector>
 
+#include "coupler/study/fingerprint.hpp"
 #include "coupler/study/plan.hpp"
 
 namespace talus::study {
 
-/// A point with its error and its cost.
-struct Point {
-  std::string method;
-  double error = 0;
-  double seconds = 0;  ///< median wall time of the time loop
+/// Where the points of a study lie, and what they depend on now.
+struct PointStore {
+  std::filesystem::path folder;  ///< of the runs' folders
+  Fingerprints& fingerprints;
 };
 
-/// For each point, whether no other is both at least as exact and at least as fast (and better in one).
-std::vector<bool> pareto_front(const std::vector<Point>& points);
-
 /// The table of a study: every point with its outcome, timings, costs; for each quantity the reference, the
-/// floor, errors, the front, and who is fastest to an error or most exact in a time. This is study.json and
+/// errors with their bars, the front, and who is fastest to an error or most exact in a time. This is study.json and
 /// what the page draws (docs/studies.md describes it).
+///
+/// A point that no longer stands for its scene counts as missing; one that another build of the programs computed is
+/// shown, marked "stale".
 nlohmann::json analyse(const LoadedStudy& study, const std::vector<PlannedRun>& runs,
-                       const std::filesystem::path& runs_folder);
+                       const PointStore& store);
 
 /// The points of analyse() as a table, one row a point.
 std::string to_csv(const nlohmann::json& analysis);

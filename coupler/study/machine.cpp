@@ -2,7 +2,6 @@
 #include <sys/utsname.h>
 #include <unistd.h>
 
-#include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -32,14 +31,11 @@ cpu_set_t allowed_cores() {
 nlohmann::json machine_record() {
   utsname system{};
   uname(&system);
-  double load[3] = {};
-  getloadavg(load, 3);
   const cpu_set_t cores = allowed_cores();
   return {{"processor", processor()},
           {"cores", sysconf(_SC_NPROCESSORS_ONLN)},
           {"cores_used", CPU_COUNT(&cores)},
-          {"system", std::string(system.sysname) + " " + system.release},
-          {"load_before", load[0]}};
+          {"system", std::string(system.sysname) + " " + system.release}};
 }
 
 void pin_to_cores(int cores) {

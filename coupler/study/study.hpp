@@ -11,8 +11,8 @@ struct StudyRequest {
   std::filesystem::path study;
   std::filesystem::path out;      ///< empty: results/<study file's stem>
   std::filesystem::path program;  ///< the talus that computes the points; empty: this one
-  /// Of the list of points, every `parts`-th from `part` (from 0) is run here; several machines share a study
-  /// that way.
+  /// Of the values of the sweep, every `parts`-th from `part` (from 0) is run here, with all methods; several machines
+  /// share a study that way.
   int part = 0;
   int parts = 1;
   bool page_only = false;  ///< makes tables and page from the points that are there

@@ -59,11 +59,17 @@ void describe(core::Fields& fields, Quantity& quantity) {
 
 void describe(core::Fields& fields, Reference& reference) {
   fields.required("method", reference.method, {.help = "the method that computes it"});
-  fields.required("values", reference.values, {.help = "two or more values of the sweep, the finest last"});
+  fields.required("values", reference.values,
+                  {.help = "three or more values of the sweep, such as h, h/2 and h/4, the finest last"});
   fields.with_default(
       "order", reference.order,
-      {.range = core::positive, .help = "order of convergence that the extrapolation to zero assumes"});
-  fields.rule(reference.values.size() >= 2, "values", "an extrapolation needs two values at least");
+      {.range = core::positive,
+       .help = "order of convergence that is expected; a reference that shows another is not trusted"});
+  fields.rule(
+      reference.values.size() >= 3, "values",
+      fmt::format("needs three values at least, such as [4 us, 2 us, 1 us], because the order of convergence "
+                  "is computed from them; it has {}",
+                  reference.values.size()));
 }
 
 void describe(core::Fields& fields, StudyScene& study) {
@@ -74,8 +80,9 @@ void describe(core::Fields& fields, StudyScene& study) {
   fields.map("methods", study.methods, "the curves or maps, by name", 1);
   fields.map("quantities", study.quantities, "what is judged, by name");
   fields.section("reference", study.reference, "what errors are measured against");
-  fields.section("second", study.second,
-                 "a second, independent way to the reference; their difference is the floor of the plots");
+  fields.section(
+      "second", study.second,
+      "a second, independent way to the reference, which is no better known than by what the two differ");
   fields.rule(study.across.has_value() != !study.quantities.empty(), "quantities",
               "a study needs either `quantities`, to judge errors along the sweep, or `across`, to map what "
               "works over two sweeps");
@@ -91,6 +98,11 @@ void describe(core::Fields& fields, StudyScene& study) {
   fields.with_default(
       "time_limit", study.time_limit,
       {.unit = "s", .range = core::positive, .help = "wall time after which a run is given up"});
+  fields.with_default(
+      "largest_energy_error", study.largest_energy_error,
+      {.range = core::positive,
+       .help = "share of the impact's energy by which the balance of a point may be off; beyond it the "
+               "point counts as inaccurate"});
 }
 
 namespace {

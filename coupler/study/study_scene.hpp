@@ -60,11 +60,11 @@ struct Quantity {
 };
 void describe(core::Fields& fields, Quantity& quantity);
 
-/// Runs whose extrapolation is taken as the truth: the finest last.
+/// Runs whose extrapolation is taken as the truth where they show nearly the order that is expected of them.
 struct Reference {
   std::string method;
-  std::vector<std::string> values;
-  double order = 2;
+  std::vector<std::string> values;  ///< three or more, the finest last
+  double order = 2;                 ///< expected
 };
 void describe(core::Fields& fields, Reference& reference);
 
@@ -79,7 +79,8 @@ struct StudyScene {
   std::int64_t repeats = 5;
   std::int64_t threads = 1;
   std::int64_t cores = 0;
-  double time_limit = 600;  ///< s
+  double time_limit = 600;             ///< s
+  double largest_energy_error = 0.05;  ///< share of the impact's energy; a point beyond counts as inaccurate
 };
 void describe(core::Fields& fields, StudyScene& study);
 

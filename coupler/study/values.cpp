@@ -65,30 +65,29 @@ Values read_values(const Quantity& quantity, const fs::path& result) {
   return history(std::get<HistoryQuantity>(quantity.source), result);
 }
 
-Values extrapolate(const Values& fine, const Values& coarse, const Refinement& refinement) {
-  Values limit = fine;
-  const double weight = 1 / (std::pow(refinement.ratio, refinement.order) - 1);
-  for (std::size_t i = 0; i < fine.numbers.size(); ++i)
-    limit.numbers[i] += weight * (fine.numbers[i] - number_at(coarse, fine, i));
-  return limit;
+double change(const Values& a, const Values& b) {
+  if (b.times.empty()) return a.numbers.at(0) - b.numbers.at(0);
+  double sum = 0;
+  for (std::size_t i = 0; i < b.numbers.size(); ++i) {
+    const double d = at_time(a, b.times[i]) - b.numbers[i];
+    sum += d * d;
+  }
+  return std::sqrt(sum / static_cast<double>(b.numbers.size()));
 }
 
-std::optional<double> observed_order(const std::vector<double>& finest_first, double ratio) {
-  if (finest_first.size() < 3) return std::nullopt;
-  const double quotient = (finest_first[2] - finest_first[1]) / (finest_first[1] - finest_first[0]);
-  if (!(quotient > 1)) return std::nullopt;
-  return std::log(quotient) / std::log(ratio);
+Values beyond(const Values& fine, const Values& coarse, double weight) {
+  Values further = fine;
+  for (std::size_t i = 0; i < fine.numbers.size(); ++i)
+    further.numbers[i] += weight * (fine.numbers[i] - number_at(coarse, fine, i));
+  return further;
 }
 
 double relative_difference(const Values& a, const Values& b) {
-  double difference = 0, size = 0;
-  for (std::size_t i = 0; i < b.numbers.size(); ++i) {
-    const double d = number_at(a, b, i) - b.numbers[i];
-    difference += d * d;
-    size += b.numbers[i] * b.numbers[i];
-  }
-  const double count = std::max<double>(1, static_cast<double>(b.numbers.size()));
-  return size > 0 ? std::sqrt(difference / size) : std::sqrt(difference / count);
+  double size = 0;
+  for (const double number : b.numbers) size += number * number;
+  size = std::sqrt(size / static_cast<double>(std::max<std::size_t>(1, b.numbers.size())));
+  const double difference = std::abs(change(a, b));
+  return size > 0 ? difference / size : difference;
 }
 
 }  // namespace talus::study

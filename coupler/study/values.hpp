@@ -17,30 +17,15 @@ struct Values {
 /// Reads a quantity from a result folder. @throws ConfigError where the result has no such column or number
 Values read_values(const Quantity& quantity, const std::filesystem::path& result);
 
-/// Richardson's extrapolation to a step of zero (L. F. Richardson, Phil. Trans. R. Soc. A 210, 1911):
-///
-///     q0 = q_h + (q_h - q_rh) / (r^p - 1)
-///
-/// | symbol | meaning                                       |
-/// |--------|-----------------------------------------------|
-/// | q_h    | value at the finer step h                     |
-/// | q_rh   | value at the coarser step r h, r > 1          |
-/// | p      | order of convergence                          |
-///
-/// Test: "Richardson's extrapolation removes the leading error of single numbers and histories".
-/// Valid where the error is c h^p to leading order. Histories are extrapolated at each time of the finer run.
-struct Refinement {
-  double ratio = 2;  ///< r
-  double order = 2;  ///< p
-};
-Values extrapolate(const Values& fine, const Values& coarse, const Refinement& refinement);
-
-/// The order of convergence that three single numbers at steps h, r h, r^2 h show: log((q2 - q1) / (q1 - q0))
-/// / log r. Nothing where they do not approach a limit steadily.
-std::optional<double> observed_order(const std::vector<double>& finest_first, double ratio);
-
 /// |a - b| / |b| of single numbers, and of histories the root mean square of the difference over that of b,
 /// at the times of b. Where b is zero: the difference itself.
 double relative_difference(const Values& a, const Values& b);
+
+/// The plain difference a - b of single numbers; of histories, which have no sign, the root mean square of it at the
+/// times of b.
+double change(const Values& a, const Values& b);
+
+/// fine + weight (fine - coarse), of histories at each time of the finer run.
+Values beyond(const Values& fine, const Values& coarse, double weight);
 
 }  // namespace talus::study

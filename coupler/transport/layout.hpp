@@ -20,7 +20,7 @@
 namespace talus::coupler::transport {
 
 inline constexpr std::uint64_t magic_number = 0x314C505553554C54;  // "TLUSUPL1"
-inline constexpr std::uint32_t layout_version = 5;
+inline constexpr std::uint32_t layout_version = 6;
 inline constexpr std::size_t role_count = 2;
 inline constexpr std::size_t array_alignment = 64;
 
@@ -59,7 +59,7 @@ struct Header {
   std::int64_t coupler_pid = 0;  ///< 0: coupler and participants are threads of one process
   std::uint64_t coupler_start =
       0;  ///< clock ticks since boot, so that a reused pid is not mistaken for the coupler
-  std::uint64_t heartbeat = 0;  ///< counts while the coupler waits; a stopped coupler stops counting
+  std::uint64_t heartbeat = 0;  ///< counts while the coupler lives; a stopped coupler stops counting
   std::uint32_t state = 0;      ///< RunState
   std::uint32_t abort_text_bytes = 0;
   std::array<char, 1984> abort_text{};  ///< who ended the run and why, for the other participants' messages
@@ -74,6 +74,7 @@ struct CommandRecord {
   double time = 0;
   double length = 0;
   double regular_length = 0;
+  double force_shift = 0;
   std::array<char, 1024> path{};  ///< ends with 0
 };
 
@@ -105,6 +106,8 @@ struct alignas(array_alignment) Channel {
   Signal command_posted, answer_posted;
   double work = 0;  ///< J; done on this side's surface since time 0. Written by the participant while it
                     ///< answers, else by the coupler
+  double window_work = 0;  ///< J; on this side's surface in the window just computed, where `books_work`
+  std::uint64_t books_work = 0;        ///< not 0: the participant told it in its last answer to `advance`
   std::int64_t force_evaluations = 0;  ///< since time 0, if the participant tells; written while it answers
   CommandRecord command;
   std::array<ArraySlot, array_count> arrays{};
@@ -118,7 +121,7 @@ struct alignas(4096) Control {
 };
 
 static_assert(std::is_trivially_copyable_v<Control> && std::is_standard_layout_v<Control>);
-static_assert(sizeof(Header) == 2056 && sizeof(CommandRecord) == 1072 && sizeof(ArraySlot) == 16 &&
+static_assert(sizeof(Header) == 2056 && sizeof(CommandRecord) == 1080 && sizeof(ArraySlot) == 16 &&
               sizeof(Mailbox) == 65552);
 static_assert(sizeof(Signal) == 40 && sizeof(Channel) % array_alignment == 0 && sizeof(Control) % 4096 == 0);
 

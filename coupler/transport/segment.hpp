@@ -15,7 +15,7 @@ class Segment {
   /// The control block; never moves.
   virtual std::span<std::byte> control() = 0;
   /// Coupler: makes the data block, zero filled, and maps it. At most once.
-  /// @throws TransportError where there is no room for it
+  /// @throws MachineError where there is no room for it
   virtual void create_data(std::size_t bytes) = 0;
   /// Participant: maps the data block that the coupler made.
   /// @throws TransportError where it is smaller than `bytes`
@@ -32,6 +32,7 @@ class Segment {
 std::shared_ptr<Segment> create_heap_segment();
 
 /// A new segment of mode 0600 whose name holds 128 random bits and the identity of this process.
+/// @throws MachineError where the system gives no shared memory
 std::unique_ptr<Segment> create_shared_segment();
 /// @throws TransportError if there is no such segment or it is smaller than a control block
 std::unique_ptr<Segment> open_shared_segment(const std::string& name);

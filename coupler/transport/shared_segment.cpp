@@ -1,6 +1,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
+#include <sys/statvfs.h>
 #include <unistd.h>
 
 #include <boost/interprocess/mapped_region.hpp>
@@ -47,17 +48,40 @@ std::size_t size_of(const ipc::shared_memory_object& object) {
                                                                  : 0;
 }
 
+/// "81.2 MB"
+std::string megabytes(std::uint64_t bytes) {
+  return fmt::format("{:.3g} MB", static_cast<double>(bytes) / 1e6);
+}
+
+/// A container gets 64 MB of shared memory unless it is asked for more; a machine gives half of its memory.
+[[noreturn]] void say_too_small(std::uint64_t wanted, const struct statvfs& room) {
+  constexpr std::uint64_t megabyte = 1'000'000;
+  const std::uint64_t size = room.f_blocks * room.f_frsize, free = room.f_bavail * room.f_frsize;
+  const std::uint64_t enough = (size + wanted) / megabyte + 1;
+  throw core::MachineError(fmt::format(
+      "the run needs {} of shared memory, but /dev/shm has {} of which {} are free; enlarge it by "
+      "`docker run --shm-size={}m ...` in a container, else by `mount -o remount,size={}m /dev/shm`",
+      megabytes(wanted), megabytes(size), megabytes(free), enough, enough));
+}
+
+/// Asked for before memory is taken, so that a run that does not fit does not drive others out.
+void refuse_without_room(int descriptor, std::uint64_t more) {
+  struct statvfs room {};
+  if (fstatvfs(descriptor, &room) != 0 || room.f_blocks == 0) return;  // no limit
+  if (room.f_bavail * room.f_frsize < more) say_too_small(more, room);
+}
+
 /// Sets the size and reserves the memory behind it, so that a full /dev/shm is an error here and not a SIGBUS
 /// at the first write.
 void reserve(ipc::shared_memory_object& object, std::size_t bytes) {
   const int descriptor = object.get_mapping_handle().handle;
-  if (ftruncate(descriptor, static_cast<off_t>(bytes)) != 0) {
-    refuse(object.get_name(), fmt::format("cannot grow to {} bytes ({})", bytes, std::strerror(errno)));
-  }
-  if (const int error = posix_fallocate(descriptor, 0, static_cast<off_t>(bytes)); error != 0) {
-    refuse(object.get_name(),
-           fmt::format("found no room for {} bytes in /dev/shm ({})", bytes, std::strerror(error)));
-  }
+  const std::size_t present = size_of(object);
+  refuse_without_room(descriptor, bytes > present ? bytes - present : 0);
+  int error = ftruncate(descriptor, static_cast<off_t>(bytes)) == 0 ? 0 : errno;
+  if (error == 0) error = posix_fallocate(descriptor, 0, static_cast<off_t>(bytes));
+  if (error != 0)
+    throw core::MachineError(fmt::format("no room for {} of shared memory in /dev/shm: {}", megabytes(bytes),
+                                         std::strerror(error)));
 }
 
 class SharedSegment final : public Segment {
@@ -130,7 +154,8 @@ std::unique_ptr<Segment> create_shared_segment() {
     segment->create_control();
     return segment;
   } catch (const ipc::interprocess_exception& error) {
-    refuse(name, fmt::format("cannot be created ({})", error.what()));
+    throw core::MachineError(
+        fmt::format("shared memory cannot be had: '/dev/shm/{}' cannot be created ({})", name, error.what()));
   }
 }
 
@@ -154,7 +179,7 @@ int remove_stale_segments() {
   for (const auto& entry : std::filesystem::directory_iterator("/dev/shm", error)) {
     const std::string name = entry.path().filename();
     const ProcessIdentity owner = owner_in(name);
-    if (owner.pid > 0 && identify(owner.pid) != owner && ipc::shared_memory_object::remove(name.c_str()))
+    if (owner.pid > 0 && !ProcessHandle(owner).alive() && ipc::shared_memory_object::remove(name.c_str()))
       ++removed;
   }
   return removed;

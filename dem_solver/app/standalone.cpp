@@ -9,6 +9,7 @@
 #include "core/program/log.hpp"
 #include "core/program/progress.hpp"
 #include "core/program/stop.hpp"
+#include "core/steps.hpp"
 #include "dem_solver/app/particle_run.hpp"
 
 namespace talus::dem {
@@ -23,7 +24,7 @@ std::int64_t steps_between(double interval, double step) {
 struct Schedule {
   std::int64_t steps = 0, row_every = 1, frame_every = 0;  ///< frame_every 0: no fields
 
-  Schedule(const RunScene& scene, double step) : steps(steps_between(scene.time.end, step)) {
+  Schedule(const RunScene& scene, double step) : steps(core::steps_in(scene.time.end, step)) {
     const double every = scene.output && scene.output->every > 0 ? scene.output->every : scene.time.end / 200;
     row_every = steps_between(every, step);
     if (scene.output && scene.output->fields_every)
@@ -94,6 +95,7 @@ core::ExitCode run_standalone(const core::SolverCommand& command) {
   if (!own_step(scene))
     throw core::ConfigError("the particles have no step: give time.step or particles.step");
   ParticleRun run(scene, make_surface(scene.particles.boundaries), {});
+  run.solver.set_clock({.time = 0, .step = core::equal_steps(scene.time.end, *own_step(scene)).length});
   check_step(scene, run);
   core::ResultWriter results({.folder = command.run.folder_for(command.scene),
                               .existing = command.run.existing,
@@ -101,21 +103,27 @@ core::ExitCode run_standalone(const core::SolverCommand& command) {
                               .program = "dem_solver " + core::version(),
                               .scene = command.scene,
                               .scene_hash = file.hash(),
-                              .frame_capacity = Schedule(scene, run.solver.step_length()).frames()},
+                              .frame_capacity = Schedule(scene, run.solver.step_length()).frames(),
+                              .energy_error = scene.output.value_or(core::OutputScene{}).energy_error()},
                              {&run.output});
+  if (const auto words = core::words_about_length("step", scene.time.end, *own_step(scene)); !words.empty())
+    core::log_info(words);
   core::Progress progress(command.run.progress, "steps");
   try {
     const core::RunStatus status = advance(run, scene, results, progress);
     summarize(results.summary(), run);
-    results.finish(status);
+    results.finish(status, status == core::RunStatus::interrupted ? core::stop_reason() : "");
     return status == core::RunStatus::finished ? core::ExitCode::success : core::ExitCode::interrupted;
   } catch (const core::NumericalError& error) {
     core::NumericalError::Details details = error.details();
     details.last_output_time = results.last_row_time().value_or(-1);
     const core::NumericalError complete(details);
     summarize(results.summary(), run);
-    results.finish(core::RunStatus::failed, complete.what());
+    results.give_up(complete.what());
     throw complete;
+  } catch (const std::exception& error) {
+    results.give_up(error.what());
+    throw;
   }
 }
 

@@ -31,17 +31,31 @@ Boundary::Boundary(const mesh::Surface& surface, std::span<const Index> material
   loaded_nodes_.reserve(nodes);
 }
 
-void Boundary::move(const Motion& motion, double fraction) noexcept {
-  const auto set_between = [&](std::vector<double>& values, std::span<const double> start,
-                               std::span<const double> end) {
-    double* to = values.data() + 3 * static_cast<std::size_t>(motion.first_node);
-    if (end.empty())
-      std::ranges::copy(start, to);
-    else
-      for (std::size_t i = 0; i < start.size(); ++i) to[i] = start[i] + fraction * (end[i] - start[i]);
+Triple<double> Boundary::Motion::velocity(std::size_t i, double x) const noexcept {
+  const auto along = [&](std::size_t c) {
+    return (end_displacement[c] - start_displacement[c]) / length +
+           (end_velocity[c] - start_velocity[c]) * (x - 0.5);
   };
-  set_between(displacement_, motion.start_displacement, motion.end_displacement);
-  set_between(velocity_, motion.start_velocity, motion.end_velocity);
+  return {along(3 * i), along(3 * i + 1), along(3 * i + 2)};
+}
+
+void Boundary::move(const Motion& motion, const Moment& moment) noexcept {
+  const std::size_t first = 3 * static_cast<std::size_t>(motion.first_node),
+                    count = motion.start_displacement.size();
+  double *u = displacement_.data() + first, *v = velocity_.data() + first;
+  if (motion.end_displacement.empty()) {
+    std::ranges::copy(motion.start_displacement, u);
+    std::ranges::copy(motion.start_velocity, v);
+    return;
+  }
+  const double x = moment.displacement, bend = 0.5 * motion.length * x * (x - 1), rate = 1 / motion.length,
+               turn = moment.velocity - 0.5;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double way = motion.end_displacement[i] - motion.start_displacement[i],
+                 change = motion.end_velocity[i] - motion.start_velocity[i];
+    u[i] = motion.start_displacement[i] + x * way + bend * change;
+    v[i] = rate * way + turn * change;
+  }
 }
 
 void Boundary::set(std::vector<double>& values, Index node, const Triple<double>& v) noexcept {

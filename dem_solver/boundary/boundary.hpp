@@ -45,16 +45,37 @@ class Boundary {
   std::span<const Row> reaction() const noexcept { return reaction_; }
   std::span<const Index> loaded_nodes() const noexcept { return loaded_nodes_; }
 
-  /// Displacement from the reference state and velocity at two times, 3 values a node, of the nodes from
-  /// `first_node` on.
+  /// Displacement from the reference state and velocity at the two ends of a window, 3 values a node, of the
+  /// nodes from `first_node` on. Between the ends they move on the parabola through both displacements whose
+  /// velocity changes by what the given velocities differ,
+  ///
+  ///     u(x) = u0 + x (u1 - u0) + L (v1 - v0) x (x - 1)/2        v(x) = (u1 - u0)/L + (v1 - v0)(x - 1/2)
+  ///
+  /// | symbol | meaning                                                    | unit   |
+  /// |--------|------------------------------------------------------------|--------|
+  /// | u, v   | displacement, velocity; 0 and 1 at the window's ends       | m, m/s |
+  /// | x      | part of the window that is over                            | 1      |
+  /// | L      | length of the window                                       | s      |
+  ///
+  /// which is of third order in L for u, of second for v, whether the given velocities are those at the ends or,
+  /// as a leapfrog has them, those a part of a step before both.
   struct Motion {
     std::span<const double> start_displacement, start_velocity;
     std::span<const double> end_displacement, end_velocity;  ///< empty: only the start is known
+    double length = 0;  ///< s; of the window; not looked at without an end
     Index first_node = 0;
+
+    /// m/s; of node i (from `first_node` on) at the part x of the window. @pre the end is known
+    Triple<double> velocity(std::size_t i, double x) const noexcept;
   };
-  /// Sets the nodes to the state at a fraction of the way from start to end. @pre fraction == 0 where the end
-  /// is empty
-  void move(const Motion& motion, double fraction) noexcept;
+  /// Which moment of the window: displacements of one time, velocities of another (those of particles are half
+  /// a step old when forces are evaluated).
+  struct Moment {
+    double displacement = 0, velocity = 0;  ///< as parts of the window
+  };
+  /// Sets the nodes to their state at a moment; to that of the start, whatever the moment, where the end is
+  /// empty.
+  void move(const Motion& motion, const Moment& moment) noexcept;
   /// Adds a displacement and a velocity, 3 values a node, to those of the nodes from `first_node` on.
   struct Addition {
     std::span<const double> displacement, velocity;

@@ -10,9 +10,9 @@ LightNodes::LightNodes(std::span<const double> masses, Index first)
   for (const double mass : masses) inverse_mass_.push_back(mass > 0 ? 1 / mass : 0);
 }
 
-void LightNodes::begin_window() noexcept {
+void LightNodes::begin_window(std::span<const double> impulse) noexcept {
   std::ranges::fill(displacement_, 0.0);
-  std::ranges::fill(velocity_, 0.0);
+  for (std::size_t i = 0; i < velocity_.size(); ++i) velocity_[i] = inverse_mass_[i / 3] * impulse[i];
 }
 
 void LightNodes::displace(Boundary& boundary) const noexcept {

@@ -10,10 +10,12 @@ namespace talus::dem {
 /// Boundary nodes that, besides the motion they are given, answer to their contact forces with their own
 /// mass:
 ///
-///     w_n+1 = w_n + h r_n/m        d_n+1 = d_n + h w_n+1        from w = d = 0 at a window's start
+///     w_n+1 = w_n + h r_n/m        d_n+1 = d_n + h w_n+1        from w = p/m, d = 0 at a window's start
 ///
 ///     d, w   displacement, velocity   m, m/s   of a node, added to what it is given
 ///     r      reaction                 N        of its contacts at the step's start
+///     p      impulse                  N s      of forces before the window that the structure has not had yet
+///                                              (negative: that it had too early), WindowForce::rest()
 ///     m      mass                     kg       behind the node; infinite or 0: it moves as given
 ///     h      step                     s        below the limits of a contact on m, docs/step_limits.md
 ///
@@ -25,15 +27,20 @@ class LightNodes {
   /// @param masses kg; of the boundary's nodes from `first` on
   LightNodes(std::span<const double> masses, Index first);
 
-  void begin_window() noexcept;
+  /// @param impulse N s, 3 a node
+  void begin_window(std::span<const double> impulse) noexcept;
   /// Adds the answer so far to the boundary's motion, which was given anew for this step.
   void displace(Boundary& boundary) const noexcept;
   /// The answer to the reactions of the step just done. @param step s
   void answer(const Boundary& boundary, double step) noexcept;
 
-  /// Of all nodes from `first` on, 3 values each.
+  /// m; of all nodes from `first` on, 3 values each.
   std::span<const double> displacement() const noexcept { return displacement_; }
-  std::span<const double> velocity() const noexcept { return velocity_; }
+  /// m/s; of a node from `first` on, half a step before the reactions and, with them, half a step after.
+  Triple<double> velocity(std::size_t node) const noexcept {
+    return {velocity_[3 * node], velocity_[3 * node + 1], velocity_[3 * node + 2]};
+  }
+  double inverse_mass(std::size_t node) const noexcept { return inverse_mass_[node]; }
 
  private:
   Index first_;

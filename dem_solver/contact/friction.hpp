@@ -39,8 +39,8 @@ struct FallingCoefficient {
 ///     ct     · dashpot, 2 g sqrt(m* kt)           · N s/m
 /// The spring never holds more than its own stretch has put into it: where only spring and dashpot together
 /// reach Coulomb's limit, the force is cut and the spring is not loaded in its place.
-/// Tests: verification/particles "friction", unit "Unloading a tangential spring returns no more energy than
-/// it was given".
+/// Tests: verification/particles "friction", unit "A tangential spring under a tenth of its load returns what
+/// its softened stiffness holds, and no more".
 template <class Coefficient>
 struct CoulombFriction {
   static constexpr int memory_rows = 1;

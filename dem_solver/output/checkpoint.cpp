@@ -4,7 +4,6 @@
 #include <type_traits>
 
 #include "core/errors.hpp"
-#include "core/output/checkpoint.hpp"
 
 namespace talus::dem {
 
@@ -52,13 +51,15 @@ struct Restore {
 
 }  // namespace
 
-void write_checkpoint(const ParticleSolver& solver, const std::filesystem::path& path) {
+void write_checkpoint(const ParticleSolver& solver, const std::filesystem::path& path,
+                      const ArchiveMore& more) {
   core::CheckpointWriter file(path, owner);
   ParticleSolver::visit_state(solver, Save{file});
+  if (more) more(file);
   file.commit();
 }
 
-void read_checkpoint(ParticleSolver& solver, const std::filesystem::path& path) {
+void read_checkpoint(ParticleSolver& solver, const std::filesystem::path& path, const ArchiveMore& more) {
   core::CheckpointReader file(path, owner);
   ParticleSolver restored = solver;
   ParticleSolver::visit_state(restored, Restore{file});
@@ -70,6 +71,7 @@ void read_checkpoint(ParticleSolver& solver, const std::filesystem::path& path) 
     throw core::ConfigError(path.string() +
                             " belongs to another scene: it has other numbers of spheres, rocks or nodes");
   restored.fit_to_state();
+  if (more) more(file);
   solver = std::move(restored);
 }
 

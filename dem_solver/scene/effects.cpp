@@ -1,6 +1,7 @@
 #include "dem_solver/scene/effects.hpp"
 
 #include "dem_solver/scene/scene_rules.hpp"
+#include "dem_solver/scene/step_limits.hpp"
 
 namespace talus::dem {
 
@@ -24,6 +25,21 @@ ParticleEffect effect(const char* name, const std::string& named_by, const char*
   return {name, !named_by.empty(), named_by.empty() ? would_need : named_by + " is given"};
 }
 
+/// An effect that acts on bodies at rest as well, where it does no work: a force that turns or moves nothing is not seen
+/// in any line but that of what it would have moved.
+ParticleEffect holding(ParticleEffect effect, const std::string& key, const char* moved_line) {
+  effect.key = key;
+  effect.ledger_line = moved_line;
+  effect.may_hold = true;
+  return effect;
+}
+
+ParticleEffect lifting(ParticleEffect effect, const char* key, const char* limit) {
+  effect.key = key;
+  effect.limit = limit;
+  return effect;
+}
+
 }  // namespace
 
 std::vector<ParticleEffect> effects_of(const ParticlesScene& particles, const EffectContext& context) {
@@ -37,7 +53,8 @@ std::vector<ParticleEffect> effects_of(const ParticlesScene& particles, const Ef
     return entry.empty() ? entry : entry + key;
   };
   return {
-      effect("gravity", particles.gravity ? "particles.gravity" : "", "particles.gravity is absent"),
+      holding(effect("gravity", particles.gravity ? "particles.gravity" : "", "particles.gravity is absent"),
+              "particles.gravity", "particles.gravity_J"),
       effect("contacts between spheres", has_several_bodies(particles) ? "more than one body" : "",
              "there is one body only"),
       effect("rocks", particles.rocks.empty() ? "" : "particles.rocks", "particles.rocks is absent"),
@@ -47,15 +64,18 @@ std::vector<ParticleEffect> effects_of(const ParticlesScene& particles, const Ef
              : context.has_interface       ? "interface"
                                            : "",
              "particles.boundaries and interface are absent"),
-      effect("implicit contact", particles.implicit_contact ? "particles.implicit_contact" : "",
-             "particles.implicit_contact is absent"),
+      lifting(effect("implicit contact", particles.implicit_contact ? "particles.implicit_contact" : "",
+                     "particles.implicit_contact is absent"),
+              "particles.implicit_contact", node_dashpot_limit),
       effect("linear contact law", suffixed(linear, ".linear"), "contacts name `hertz`"),
-      effect("friction", suffixed(friction, ".friction"), "no contact names `friction`"),
+      holding(effect("friction", suffixed(friction, ".friction"), "no contact names `friction`"),
+              suffixed(friction, ".friction"), "particles.kinetic_rotation_J"),
       effect("rotation", suffixed(friction, ".friction"),
              "nothing turns the spheres: no contact names `friction`"),
       effect("falling friction coefficient", suffixed(falling, ".friction.decay_speed"),
              "no contact names `friction.decay_speed`"),
-      effect("rolling resistance", suffixed(rolling, ".rolling"), "no contact names `rolling`"),
+      holding(effect("rolling resistance", suffixed(rolling, ".rolling"), "no contact names `rolling`"),
+              suffixed(rolling, ".rolling"), "particles.kinetic_rotation_J"),
       effect("gates", particles.gates.empty() ? "" : "particles.gates", "particles.gates is absent"),
       effect("energy ledger", context.has_output ? "output" : "", "output is absent"),
   };

@@ -12,6 +12,10 @@ struct ParticleEffect {
   std::string name;
   bool present = false;
   std::string reason;
+  std::string key = {};          ///< that names it; empty where it has none of its own
+  std::string ledger_line = {};  ///< whose energy appears where it acts
+  bool may_hold = false;         ///< it may act without doing work, as friction that holds a block
+  std::string limit = {};        ///< step limit that is not there where the scene names it
 };
 
 /// Which effects the scene calls for and why; of the absent ones, what the scene would have to name.

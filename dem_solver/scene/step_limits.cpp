@@ -78,7 +78,7 @@ struct Limits {
   Tightest tunnelling = open_limit("tunnelling", true);
   Tightest duration = open_limit("contact duration", false);
   Tightest rayleigh = open_limit("Rayleigh wave", false);
-  Tightest node_dashpot = open_limit("contact dashpot on boundary nodes", false);
+  Tightest node_dashpot = open_limit(node_dashpot_limit, false);
 };
 
 class LimitSearch {

@@ -16,6 +16,9 @@ struct ParticleStepLimit {
   std::string reason;     ///< formula and entity
 };
 
+/// The limit that implicit contact lifts.
+inline constexpr const char* node_dashpot_limit = "contact dashpot on boundary nodes";
+
 /// What the limits need beside the model.
 struct LimitContext {
   std::span<const Material> materials;

@@ -3,8 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <functional>
 #include <limits>
+#include <variant>
 
+#include "core/steps.hpp"
 #include "coupler/scene/interface_scene.hpp"
 #include "fem_solver/app/structure.hpp"
 
@@ -59,12 +63,16 @@ void add_cells(const Part& part, const std::vector<Index>& number, mesh::Surface
   run.triangle_end = static_cast<mesh::Index>(surface.triangles.size());
 }
 
-/// Nodes whose motion is prescribed in every direction: no force moves them.
+/// Nodes whose motion is prescribed in every direction, by one support or by several together: no force moves
+/// them.
 std::vector<bool> held_nodes(const Model& model) {
-  std::vector<bool> held(static_cast<std::size_t>(model.nodes()), false);
+  std::vector<std::array<bool, 3>> fixed(static_cast<std::size_t>(model.nodes()), {false, false, false});
   for (const auto& support : model.supports)
-    if (support.fixed[0] && support.fixed[1] && support.fixed[2])
-      for (const Index node : support.nodes) held[static_cast<std::size_t>(node)] = true;
+    for (const Index node : support.nodes)
+      for (std::size_t c = 0; c < 3; ++c)
+        if (support.fixed[c]) fixed[static_cast<std::size_t>(node)][c] = true;
+  std::vector<bool> held;
+  for (const auto& directions : fixed) held.push_back(std::ranges::all_of(directions, std::identity{}));
   return held;
 }
 
@@ -97,13 +105,19 @@ coupler::Declaration declaration(Structure& structure, const StructuralScene& sc
       .insists_on_step = scene.structure.unstable_step == StructureScene::UnstableStep::allowed,
       .free_velocity = !structure.integrator().free_velocity(0, structure.step()).empty(),
       .checkpoints = true,
+      .force_use = structure.is_implicit() ? coupler::ForceUse::load : coupler::ForceUse::kicks,
       .limits = {},
       .effects = {},
       .outputs = structure.output().description()};
   for (const StepBound& bound : structure.bounds())
     declared.limits.push_back({bound.name, bound.seconds, true, bound.reason});
   for (const auto& effect : structure.effects(scene.structure))
-    declared.effects.push_back({effect.name, effect.present, effect.reason});
+    declared.effects.push_back({.name = effect.name,
+                                .present = effect.present,
+                                .reason = effect.reason,
+                                .key = effect.key,
+                                .ledger_line = effect.ledger_line,
+                                .limit = effect.limit});
   return declared;
 }
 
@@ -120,6 +134,28 @@ void publish_motion(Integrator& integrator, const coupler::StructureFields& fiel
     interface.pick(integrator.free_velocity(present.time, present.next_window), fields.free_velocity);
 }
 
+/// The work of the window's forces is told from this side's own ledger, except where a leapfrog takes one step
+/// in a window that is never taken back: there the sum of forces and displacements is the same, and may be taken
+/// for both sides at once.
+void advance(const coupler::Command& command, Structure& structure, coupler::Participant& participant) {
+  Integrator& integrator = structure.integrator();
+  const double work_before = integrator.interface_work();
+  integrator.interface().set(participant.structure_fields().force);
+  integrator.advance(command.time, command.length);
+  if (structure.is_implicit() || command.tentative || core::steps_in(command.length, structure.step()) > 1)
+    participant.book_work(integrator.interface_work() - work_before);
+  participant.tell_force_evaluations(integrator.force_evaluations());
+}
+
+/// A structure that finds equilibria knows no time: with particles beside it, nothing would move it.
+void refuse_static(const core::SceneFile& file, const StructuralScene& scene) {
+  if (file.has_section("particles") && std::holds_alternative<StaticScene>(scene.structure.method))
+    throw core::ConfigError(
+        "structure.static: a static structure has no time to go through together with `particles`; leave "
+        "them "
+        "out, or take `explicit` or `implicit`");
+}
+
 void obey(const coupler::Command& command, Structure& structure, coupler::Participant& participant) {
   using coupler::Action;
   Integrator& integrator = structure.integrator();
@@ -127,10 +163,8 @@ void obey(const coupler::Command& command, Structure& structure, coupler::Partic
   Present present{command.time, command.regular_length};
   switch (command.action) {
     case Action::advance:
-      integrator.interface().set(fields.force);
-      integrator.advance(command.time, command.length);
+      advance(command, structure, participant);
       present.time = command.time + command.length;
-      participant.tell_force_evaluations(integrator.force_evaluations());
       break;
     case Action::save_state:
       return integrator.save();
@@ -142,7 +176,8 @@ void obey(const coupler::Command& command, Structure& structure, coupler::Partic
       integrator.last_output_time = command.time;
       break;
     case Action::write_checkpoint:
-      return structure.write_checkpoint(command.path);
+      return coupler::write_checkpoint(
+          command, [&](const std::filesystem::path& path) { structure.write_checkpoint(path); });
     case Action::read_checkpoint:
       structure.read_checkpoint(command.path);
       break;
@@ -156,6 +191,7 @@ void obey(const coupler::Command& command, Structure& structure, coupler::Partic
 
 void serve_structure(const core::SceneFile& file, coupler::Participant& participant) {
   const StructuralScene scene = read_structural_scene(file);
+  refuse_static(file, scene);
   Structure structure(scene);
   const PublishedSurface published = published_surface(structure.model(), interface_parts(file));
   structure.make_interface(published.nodes);

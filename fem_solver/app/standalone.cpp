@@ -6,6 +6,7 @@
 #include "core/output/result_writer.hpp"
 #include "core/program/log.hpp"
 #include "core/program/stop.hpp"
+#include "core/steps.hpp"
 #include "core/units/units.hpp"
 #include "fem_solver/app/structure.hpp"
 
@@ -42,7 +43,8 @@ core::ResultWriter::Options writer_options(const core::SolverCommand& command, c
           .program = "fem_solver " + core::version(),
           .scene = command.scene,
           .scene_hash = file.hash(),
-          .frame_capacity = every > 0 ? static_cast<std::int64_t>(scene.time.end / every) + 2 : 0};
+          .frame_capacity = every > 0 ? static_cast<std::int64_t>(scene.time.end / every) + 2 : 0,
+          .energy_error = scene.output.energy_error()};
 }
 
 void report_limits(const Structure& structure, core::ResultWriter& results) {
@@ -61,8 +63,7 @@ void report_limits(const Structure& structure, core::ResultWriter& results) {
 /// All steps of the run. @returns whether it was not interrupted
 bool run_steps(Structure& structure, const StructuralScene& scene, core::ResultWriter& results,
                core::Progress& progress) {
-  const auto steps = static_cast<std::int64_t>(std::ceil(scene.time.end / structure.step() * (1 - 1e-9)));
-  const double step = scene.time.end / static_cast<double>(steps);
+  const auto [steps, step] = core::equal_steps(scene.time.end, structure.step());
   const double every =
       scene.output.every > 0 ? scene.output.every : scene.time.end / rows_where_no_interval_is_given;
   Schedule rows(every, step), frames(scene.output.fields_every.value_or(0), step);
@@ -101,13 +102,16 @@ core::ExitCode run_standalone(const core::SolverCommand& command) {
   Structure structure(scene);
   core::ResultWriter results(writer_options(command, file, scene), {&structure.output()});
   report_limits(structure, results);
+  if (const auto words = core::words_about_length("step", scene.time.end, structure.step()); !words.empty())
+    core::log_info(words);
   core::Progress progress(command.run.progress, "steps");
   try {
     const bool finished = run_steps(structure, scene, results, progress);
-    results.finish(finished ? core::RunStatus::finished : core::RunStatus::interrupted);
+    results.finish(finished ? core::RunStatus::finished : core::RunStatus::interrupted,
+                   finished ? "" : core::stop_reason());
     return finished ? core::ExitCode::success : core::ExitCode::interrupted;
   } catch (const std::exception& error) {
-    results.finish(core::RunStatus::failed, error.what());
+    results.give_up(error.what());
     throw;
   }
 }

@@ -45,19 +45,29 @@ double chosen_step(const StructuralScene& scene, const std::vector<StepBound>& b
   return default_share_of_limit * bounds.front().seconds;
 }
 
+StructuralEffect effect_at(const std::string& name, const std::string& key, bool present) {
+  return {name, present, fmt::format("{} is {}", key, present ? "given" : "not given"), key};
+}
+
 /// A part's elements, and what they know beyond elasticity.
 void add_effects_of_part(std::vector<StructuralEffect>& effects, const std::string& part,
                          const ElementScene& element) {
-  const auto add = [&](const char* effect, const char* key, bool present) {
-    effects.push_back(
-        {fmt::format("{} of {}", effect, part), present,
-         fmt::format("structure.parts.{}{} is {}", part, key, present ? "given" : "not given")});
+  const std::string key = "structure.parts." + part, compression = "compression of " + part;
+  const auto add = [&](const char* effect, const char* suffix, bool present) -> StructuralEffect& {
+    return effects.emplace_back(effect_at(fmt::format("{} of {}", effect, part), key + suffix, present));
+  };
+  const auto dissipating = [&](const char* effect, const char* suffix) {
+    add(effect, suffix, true).ledger_line = "structure.dissipated_" + part + "_J";
   };
   add("elements", "", true);
   if (const auto* sheet = std::get_if<MembraneScene>(&element))
-    add("tension field", ".membrane.tension_field", sheet->tension_field.has_value());
+    add("tension field", ".membrane.tension_field", sheet->tension_field.has_value()).limit = compression;
+  if (std::holds_alternative<BarScene>(element)) add("slackness", ".cable", false).limit = compression;
   if (const auto* rope = std::get_if<SlidingCableScene>(&element))
-    add("friction", ".sliding_cable.friction", rope->friction.has_value());
+    add("friction", ".sliding_cable.friction", rope->friction.has_value());  // it may hold, without any work
+  if (std::holds_alternative<ElasticPlasticCableScene>(element))
+    dissipating("yielding", ".elastic_plastic_cable");
+  if (std::holds_alternative<BrakeScene>(element)) dissipating("braking", ".brake");
 }
 
 /// The integrator that a method of the scene means.
@@ -115,6 +125,7 @@ Structure::Structure(const StructuralScene& scene)
       assembly_(model_),
       bounds_(bounds_of(scene.structure, assembly_)),
       step_(chosen_step(scene, bounds_)),
+      implicit_(std::holds_alternative<ImplicitScene>(scene.structure.method)),
       output_scene_(scene.output) {
   check_step(scene.structure);
   if (scene.structure.mass_scaling) core::log_warning(description(added_mass_));
@@ -127,22 +138,22 @@ Structure::Structure(const StructuralScene& scene)
 }
 
 std::vector<StructuralEffect> Structure::effects(const StructureScene& scene) const {
-  const auto named = [](const char* effect, const char* key, bool present) {
-    return StructuralEffect{effect, present,
-                            fmt::format("structure.{} is {}", key, present ? "given" : "not given")};
-  };
   std::vector<StructuralEffect> effects;
+  const auto add = [&](const char* effect, const char* key, bool present) -> StructuralEffect& {
+    return effects.emplace_back(effect_at(effect, std::string("structure.") + key, present));
+  };
   for (const auto& [name, part] : scene.parts) add_effects_of_part(effects, name, part.element);
-  effects.push_back(named("gravity on the structure", "gravity", scene.gravity.has_value()));
-  effects.push_back(
-      named("mass-proportional damping", "damping.mass", scene.damping && scene.damping->mass > 0));
-  effects.push_back(named("stiffness-proportional damping", "damping.stiffness",
-                          scene.damping && scene.damping->stiffness > 0));
-  effects.push_back(named("nodal loads", "loads", !scene.loads.empty()));
-  effects.push_back(named("point masses", "point_masses", !scene.point_masses.empty()));
-  effects.push_back(named("welded parts", "weld", scene.weld.has_value()));
-  effects.push_back(named("nodes that slide along ropes", "slides", !scene.slides.empty()));
-  effects.push_back(named("mass scaling", "mass_scaling", scene.mass_scaling.has_value()));
+  const auto& damping = scene.damping;
+  add("gravity on the structure", "gravity", scene.gravity.has_value()).ledger_line = "structure.gravity_J";
+  add("mass-proportional damping", "damping.mass", damping && damping->mass > 0).ledger_line =
+      "structure.bulk_damping_J";
+  add("stiffness-proportional damping", "damping.stiffness", damping && damping->stiffness > 0).ledger_line =
+      "structure.bulk_damping_J";
+  add("nodal loads", "loads", !scene.loads.empty());
+  add("point masses", "point_masses", !scene.point_masses.empty());
+  add("welded parts", "weld", scene.weld.has_value());
+  add("nodes that slide along ropes", "slides", !scene.slides.empty());
+  add("mass scaling", "mass_scaling", scene.mass_scaling.has_value());
   if (scene.mass_scaling) effects.back().reason += "; " + description(added_mass_);
   return effects;
 }

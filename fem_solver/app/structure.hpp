@@ -32,6 +32,9 @@ struct StructuralEffect {
   std::string name;
   bool present = false;
   std::string reason;
+  std::string key = {};          ///< that names it
+  std::string ledger_line = {};  ///< whose energy appears where it acts; empty where it may act without work
+  std::string limit = {};        ///< "compression of net", where it takes compression away
 };
 
 /// A structure ready to run: everything that is made of the scene before time 0.
@@ -52,7 +55,9 @@ class Structure {
   void write_checkpoint(const std::filesystem::path& path);
   void read_checkpoint(const std::filesystem::path& path);
 
-  double step() const { return step_; }                             ///< s
+  double step() const { return step_; }  ///< s
+  /// Whether the forces of a window are a load over it, and not kicks at the starts of its steps.
+  bool is_implicit() const { return implicit_; }
   const std::vector<StepBound>& bounds() const { return bounds_; }  ///< the one that counts first
   const AddedMass& added_mass() const { return added_mass_; }
   std::vector<StructuralEffect> effects(const StructureScene& scene) const;
@@ -65,6 +70,7 @@ class Structure {
   Assembly assembly_;
   std::vector<StepBound> bounds_;
   double step_ = 0;
+  bool implicit_ = false;
   std::unique_ptr<Integrator> integrator_;
   core::OutputScene output_scene_;
   std::unique_ptr<core::StageClock> clock_;  ///< nullptr: the scene does not ask for stage times

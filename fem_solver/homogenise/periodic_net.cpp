@@ -115,7 +115,11 @@ void NetResponse::stretch_to(const PlaneStrain<double>& strain) {
 }
 
 double NetResponse::energy_per_area() const {
-  return energy(fluctuations_) / net_.area;
+  return energy_per_area(fluctuations_);
+}
+
+double NetResponse::energy_per_area(const Eigen::VectorXd& fluctuations) const {
+  return energy(fluctuations) / net_.area;
 }
 
 PlaneStress<double> NetResponse::membrane_force() const {

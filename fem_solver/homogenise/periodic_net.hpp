@@ -49,7 +49,11 @@ class NetResponse {
   /// Follows the net to a strain from where it was left.
   /// @throws core::NumericalError if the nodes find no equilibrium there
   void stretch_to(const PlaneStrain<double>& strain);
-  double energy_per_area() const;              ///< J/m^2
+  double energy_per_area() const;  ///< J/m^2
+  /// J/m^2; with the nodes elsewhere than in equilibrium. @param fluctuations as fluctuations() gives them
+  double energy_per_area(const Eigen::VectorXd& fluctuations) const;
+  /// How nodes leave the uniform motion: m, x and y of each node but the first, which stays.
+  const Eigen::VectorXd& fluctuations() const { return fluctuations_; }
   PlaneStress<double> membrane_force() const;  ///< N/m
 
  private:

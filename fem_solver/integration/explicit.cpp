@@ -6,6 +6,7 @@
 #include <type_traits>
 
 #include "core/errors.hpp"
+#include "core/steps.hpp"
 #include "fem_solver/integration/external_force.hpp"
 
 namespace talus::fem {
@@ -34,15 +35,15 @@ ExplicitSolver::ExplicitSolver(const Model& model, Assembly& assembly, double st
 }
 
 void ExplicitSolver::advance(double time, double length) {
-  const auto steps = std::max(1.0, std::ceil(length / longest_step_ * (1 - 1e-9)));
-  const double step_length = length / steps;
+  const std::int64_t steps = core::steps_in(length, longest_step_);
+  const double step_length = length / static_cast<double>(steps);
   if (stays_at_rest(time, step_length)) {
-    state_.steps += static_cast<std::int64_t>(steps);
+    state_.steps += steps;
     state_.previous_step = step_length;
     return;
   }
-  force_evaluations_ += static_cast<std::int64_t>(steps);
-  for (int k = 0; k < steps; ++k) step(time + k * step_length, step_length);
+  force_evaluations_ += steps;
+  for (std::int64_t k = 0; k < steps; ++k) step(time + static_cast<double>(k) * step_length, step_length);
 }
 
 bool ExplicitSolver::stays_at_rest(double time, double step) noexcept {

@@ -75,6 +75,9 @@ class ExplicitSolver final : public Integrator {
   /// The balance at the time of the last force evaluation, one step before the present; before the first
   /// step, at time 0.
   EnergyBalance balance() override;
+  double interface_work() const override {
+    return state_.works[by_interface].done + state_.works[by_interface].pending;
+  }
   double slide_gap(std::size_t slide) const override { return slides_[slide].largest_violation(); }
   std::int64_t force_evaluations() const override { return force_evaluations_; }
   void save() override { saved_.take(state_, model_); }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/errors.hpp"
+#include "core/steps.hpp"
 #include "fem_solver/integration/external_force.hpp"
 
 namespace talus::fem {
@@ -20,6 +21,7 @@ ImplicitSolver::ImplicitSolver(const Model& model, Assembly& assembly, const Imp
             .velocity = zero,
             .acceleration = zero,
             .force = zero,
+            .interface_force = zero,
             .reactions = std::vector<double>(reaction_count(model), 0.0)};
   for (const auto& initial : model.initial_velocities)
     for (const Index node : initial.nodes) Vector3::Map(&state_.velocity[3 * node]) = initial.velocity;
@@ -29,9 +31,10 @@ ImplicitSolver::ImplicitSolver(const Model& model, Assembly& assembly, const Imp
 void ImplicitSolver::advance(double time, double length) {
   assembly_.start_step();
   if (state_.steps == 0) start(time);
+  take_interface_force();
   reports_.clear();
-  const double end = time + length, smallest = smallest_share_of_step * options_.step;
-  const double whole = length / std::max(1.0, std::ceil(length / options_.step * (1 - 1e-9)));
+  const double whole = length / static_cast<double>(core::steps_in(length, options_.step));
+  const double end = time + length, smallest = smallest_share_of_step * whole;
   double share = whole;
   for (double now = time; now < end - 0.5 * smallest;) {
     const Step step{now, now + share > end - 0.5 * smallest ? end - now : share};
@@ -50,6 +53,7 @@ void ImplicitSolver::archive(core::StateArchive& archive) {
   archive.values("velocity", state_.velocity);
   archive.values("acceleration", state_.acceleration);
   archive.values("force", state_.force);
+  archive.values("interface_force", state_.interface_force);
   archive.values("reactions", state_.reactions);
   archive_element_memory(archive, model_);
   archive.count("steps", state_.steps);
@@ -59,15 +63,36 @@ void ImplicitSolver::archive(core::StateArchive& archive) {
   fem::archive(archive, state_.works);
 }
 
-/// The acceleration the first step starts from.
+/// The acceleration the first step starts from, before the interface's forces.
 void ImplicitSolver::start(double time) {
   before_ = state_;
-  total_force(time, state_.displacement, state_.force);
+  assembly_.internal_force(state_.displacement, state_.force);
+  add_external_force(model_, {}, {.time = time}, state_.force);
   std::vector<double> sum = state_.force;
   add_damping(-1, state_.velocity, sum);
+  state_.acceleration = newton_.accelerations({masses_of_directions(), std::move(sum)}, state_.displacement);
+}
+
+void ImplicitSolver::take_interface_force() {
+  std::vector<double> jump(state_.force.size(), 0.0);
+  interface_.for_each([&](Index node, const auto& on_node) { Vector3::Map(&jump[3 * node]) = on_node; });
+  if (jump == state_.interface_force) return;
+  for (std::size_t i = 0; i < jump.size(); ++i) {
+    const double now = jump[i];
+    jump[i] -= state_.interface_force[i];
+    state_.interface_force[i] = now;
+    state_.force[i] += jump[i];
+  }
+  std::vector<double> place = state_.displacement;  // sliders are on their ropes already
+  const std::vector<double> change = newton_.accelerations({masses_of_directions(), std::move(jump)}, place);
+  for (std::size_t i = 0; i < change.size(); ++i) state_.acceleration[i] += change[i];
+}
+
+std::vector<double> ImplicitSolver::masses_of_directions() const {
   std::vector<double> masses;
+  masses.reserve(model_.reference.size());
   for (const double m : model_.node_masses) masses.insert(masses.end(), 3, m);
-  state_.acceleration = newton_.accelerations({masses, std::move(sum)}, state_.displacement);
+  return masses;
 }
 
 bool ImplicitSolver::take(const Step& step) {

@@ -45,6 +45,8 @@ class Integrator {
   /// Forces of the supports on the structure (N), 3 for every node of every support in turn.
   virtual std::span<const double> reactions() const = 0;
   virtual EnergyBalance balance() = 0;
+  /// Supplied through the interface so far, by this integrator's own ledger (J).
+  virtual double interface_work() const = 0;
   /// Of all elements, since the start: the cost that does not depend on the machine. What was taken back
   /// counts.
   virtual std::int64_t force_evaluations() const = 0;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace talus::fem {
 namespace {
@@ -70,7 +71,7 @@ bool Newton::measure(const NewtonSystem& system, const NewtonOptions& options, N
   for (Index k = 0; k < equations_.count(); ++k) {
     const double size = std::abs(residual_[static_cast<std::size_t>(equations_.direction(k))]);
     if (size <= largest) continue;
-    largest = size;
+    largest = std::isnan(size) ? std::numeric_limits<double>::infinity() : size;
     report.worst_direction = equations_.direction(k);
   }
   const double scale = system.force_scale();

@@ -33,6 +33,7 @@ class StaticSolver final : public Integrator {
   std::span<const double> velocity() const override { return velocity_; }
   std::span<const double> reactions() const override { return state_.reactions; }
   EnergyBalance balance() override;
+  double interface_work() const override { return state_.works.interface; }
   double slide_gap(std::size_t slide) const override {
     return newton_.slides().gap(slide, state_.displacement);
   }

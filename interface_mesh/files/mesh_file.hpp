@@ -5,12 +5,11 @@
 
 #include "interface_mesh/net.hpp"
 
-/// Meshes in files, by the end of their name: .msh (Gmsh 4.1, gmsh.hpp), .stl, .obj, .ply (through assimp,
-/// which keeps coordinates in single precision: 7 digits).
+/// Meshes in files, by the end of their name: .msh (Gmsh 4.1 and 2.2, gmsh.hpp), .stl, .obj, .ply
+/// (surface_readers.hpp), all read and written in double precision.
 namespace talus::mesh {
 
-/// Objects of .obj, .ply and .stl files become parts; corners at the same place become one node. Lines of
-/// .obj files are read.
+/// The groups, solids, objects and materials of a file become cell sets.
 /// @throws core::ConfigError if the file cannot be read, is of another kind, or holds neither lines nor
 /// triangles
 Net read_mesh_file(const std::filesystem::path& path);
@@ -19,8 +18,8 @@ Net read_mesh_file(const std::filesystem::path& path);
 /// @throws core::ConfigError if the file cannot be written or the kind does not take the mesh
 void write_mesh_file(const Net& net, const std::filesystem::path& path);
 
-/// One part alone, with the nodes it uses and the node sets cut down to them.
-/// @throws core::ConfigError naming the parts there are, if it is not among them
+/// One of a file's cell sets alone, turned as it lists its triangles, with the nodes it uses and the node sets cut down to them.
+/// @throws core::ConfigError naming the sets there are, if it is not among them
 Net extract_part(const Net& net, const std::string& part);
 
 }  // namespace talus::mesh

@@ -92,8 +92,7 @@ class Service:
         self._state = self._saved.copy()
 
     def _write(self, command: talus.Command) -> None:
-        with open(command.path, "wb") as file:
-            np.savez(file, **vars(self._state))
+        talus.write_checkpoint(command, lambda file: np.savez(file, **vars(self._state)))
 
     def _read(self, command: talus.Command) -> None:
         with np.load(command.path) as stored:

@@ -13,11 +13,12 @@ docs/participants.md tells the whole story; examples/participants/springs.py is 
 from talus._native import Action, Command, FieldLocation, LedgerKind, Role
 from talus.description import Declaration, Effect, Field, Group, LedgerLine, StepLimit, Surface
 from talus.errors import ConfigError, NumericalError, TalusError, TransportError, UsageError
-from talus.participant import Participant, ParticleFields, StructureFields, checkpoint_state
+from talus.participant import Participant, ParticleFields, StructureFields, checkpoint_state, write_checkpoint
 from talus.scene import Section, read_scene
 
 __all__ = [
     "Action", "Command", "ConfigError", "Declaration", "Effect", "Field", "FieldLocation", "Group", "LedgerKind",
     "LedgerLine", "NumericalError", "Participant", "ParticleFields", "Role", "Section", "StepLimit",
     "StructureFields", "Surface", "TalusError", "TransportError", "UsageError", "checkpoint_state", "read_scene",
+    "write_checkpoint",
 ]

@@ -40,6 +40,10 @@ class Effect:
     name: str
     present: bool
     reason: str
+    key: str = ""  #: of the scene, which names it
+    ledger_line: str = ""  #: whose energy appears where it acts
+    may_hold: bool = False  #: it may act without doing work, as friction that holds a block
+    limit: str = ""  #: what is exceeded where it is missing: the name of a step limit, or "compression of <group>"
 
 
 @dataclass

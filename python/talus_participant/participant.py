@@ -1,8 +1,11 @@
 """The coupling contract as a solver sees it: the coupler commands, the solver answers."""
 from __future__ import annotations
 
+import pathlib
+import sys
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Iterator
+from typing import BinaryIO, Iterator
 
 import numpy as np
 
@@ -38,14 +41,24 @@ class ParticleFields:
     force: np.ndarray  #: N, that the boundary receives, mean over the window
 
 
+def write_checkpoint(command: Command, write: Callable[[BinaryIO], None]) -> None:
+    """Answers `write_checkpoint` by `write`, which gets the open file. Where the system refuses, this says so on the standard error
+    stream and leaves no file: the coupler then goes on without this checkpoint."""
+    try:
+        with open(command.path, "wb") as file:
+            write(file)
+    except OSError as error:
+        print(f"warning: '{command.path}' cannot be written: {error.strerror or error}", file=sys.stderr)
+        pathlib.Path(command.path).unlink(missing_ok=True)
+
+
 def checkpoint_state(command: Command, *arrays: np.ndarray) -> None:
     """Answers `write_checkpoint` and `read_checkpoint` for a state that is these arrays: reading fills them in place.
 
     Does nothing for other commands.
     """
     if command.action == Action.write_checkpoint:
-        with open(command.path, "wb") as file:
-            np.savez(file, *arrays)
+        write_checkpoint(command, lambda file: np.savez(file, *arrays))
     elif command.action == Action.read_checkpoint:
         with np.load(command.path) as stored:
             for array, name in zip(arrays, stored.files, strict=True):

@@ -138,7 +138,7 @@ class StepAtTheLimit(unittest.TestCase):
 
     def test_slightly_above_it_ends_with_an_error_where_the_scene_insists(self):
         done = Run("hard/step_at_the_limit", self.scene(1.01, "structure: {unstable_step: allowed}"), program="fem_solver").done
-        self.assertNotEqual(done.returncode, 0)
+        self.assertEqual(done.returncode, 4)  # a numerical error, not a crash or a bug
         self.assertRegex(done.stderr, r"step \d+.*node \d+")
 
 

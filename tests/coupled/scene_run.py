@@ -12,8 +12,8 @@ import tempfile
 import numpy as np
 
 ROOT, BUILD = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2])
-_WORK = tempfile.TemporaryDirectory()
-atexit.register(_WORK.cleanup)
+WORK = tempfile.TemporaryDirectory()
+atexit.register(WORK.cleanup)
 
 
 class Run:
@@ -21,7 +21,7 @@ class Run:
     particles, `fem_solver`."""
 
     def __init__(self, scene: str | pathlib.Path, changes: str = "", *, program: str = "talus", options: tuple[str, ...] = ()):
-        folder = pathlib.Path(tempfile.mkdtemp(dir=_WORK.name))
+        folder = pathlib.Path(tempfile.mkdtemp(dir=WORK.name))
         changed, self.result = folder / "scene.yaml", folder / "result"
         base = scene if isinstance(scene, pathlib.Path) else f"{ROOT}/configs/{scene}.yaml"
         changed.write_text(f"extends: {base}\n{changes}")
@@ -34,13 +34,20 @@ class Run:
             raise AssertionError(self.done.stderr)
         return json.loads((self.result / "summary.json").read_text())
 
+    def _table(self, name: str) -> dict[str, np.ndarray]:
+        assert self.summary
+        with open(self.result / name, newline="") as file:
+            header, *rows = csv.reader(file)
+        return dict(zip(header, np.array(rows, dtype=float).T))
+
     @functools.cached_property
     def columns(self) -> dict[str, np.ndarray]:
         """Of probes.csv, by name."""
-        assert self.summary
-        with open(self.result / "probes.csv", newline="") as file:
-            header, *rows = csv.reader(file)
-        return dict(zip(header, np.array(rows, dtype=float).T))
+        return self._table("probes.csv")
+
+    def energy(self, line: str) -> np.ndarray:
+        """A line of energy.csv."""
+        return self._table("energy.csv")[line]
 
     def column(self, name: str) -> np.ndarray:
         return self.columns[name]

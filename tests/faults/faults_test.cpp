@@ -1,3 +1,5 @@
+#include <cstring>
+
 #include "tests/faults/faulty_run.hpp"
 
 using namespace talus;
@@ -43,14 +45,16 @@ TEST_CASE("a solver that never joins is named after the join timeout and killed"
                              Contains("gave no answer for 0.5 s") && Contains("waited for it to join"));
 }
 
-TEST_CASE("a solver that stops answering is named as hanging after the timeout, be it stopped or busy") {
-  const std::string how = GENERATE("stopped", "busy");
+TEST_CASE("a solver that does not answer is named after the timeout, and whether it computes or is stuck") {
+  const std::string how = GENERATE("stopped", "busy", "asleep");
   FaultyRun run({.structure = how, .coupling = "timeout: 2 s, " + GENERATE(from_range(schemes))});
   const auto end = run.ended();
   CHECK(end.code == transport);
   CHECK_THAT(end.output, Contains("structure (dummy_structure, pid ") &&
-                             Contains("gave no answer for 2 s (hangs; its process ") &&
-                             Contains(how == "busy" ? "process runs" : "process is stopped") &&
+                             Contains("gave no answer for 2 s (") &&
+                             Contains(how == "busy"     ? " s (computing, "
+                                      : how == "asleep" ? " s (stuck: sleeps, 0 % CPU)"
+                                                        : " s (is stopped)") &&
                              Contains("in window 20"));
 }
 
@@ -107,14 +111,35 @@ TEST_CASE("when the coupler is killed, its solvers say so and end, whatever they
   CHECK(run.rows() >= 5);
 }
 
-TEST_CASE("Ctrl-C and SIGTERM end a run with everything written") {
-  const int number = GENERATE(SIGINT, SIGTERM);
+TEST_CASE("a signal to the whole process group, once or twice, ends a run with everything written") {
+  const int number = GENERATE(SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGUSR2);
   FaultyRun run({});
   run.wait_for_rows();
   run.program().signal(number);
+  run.program().signal_group(number);
   const auto end = run.ended();
+  const std::string name = std::string("SIG") + sigabbrev_np(number);
   CHECK(end.code == interrupted);
-  CHECK_THAT(run.summary(), Contains("\"status\": \"interrupted\""));
+  CHECK_THAT(end.output, Contains(name + ": stops at the end of this window"));
+  CHECK_THAT(run.summary(), Contains("\"status\": \"interrupted\"") && Contains("stopped by " + name));
+}
+
+TEST_CASE("what a solver's program has started ends with the run, after it was asked to") {
+  test::Folder folder("wrapper");
+  const auto file = [&](const char* name) { return (folder / name).string(); };
+  // Like mpirun: a program that starts others and ends them when it is told to.
+  folder.add("wrapper.sh",
+             "#!/bin/sh\nsleep 600 &\necho $! > " + file("rank") + "\ntrap 'echo > " + file("asked") +
+                 "; exit 1' TERM\n" TALUS_BINARY_DIR "/bin/dummy_structure \"$@\" &\nwait\nwait\n");
+  std::filesystem::permissions(folder / "wrapper.sh", std::filesystem::perms::owner_all);
+  FaultyRun run({.particles = "exit", .structure_program = file("wrapper.sh")});
+  CHECK(run.ended().code == transport);
+  CHECK(std::filesystem::exists(folder / "asked"));
+  const int rank = std::stoi(text_of(folder / "rank"));
+  const auto deadline = std::chrono::steady_clock::now() + end_limit;
+  while (test::is_running(rank) && std::chrono::steady_clock::now() < deadline)
+    std::this_thread::sleep_for(5ms);
+  CHECK_FALSE(test::is_running(rank));
 }
 
 TEST_CASE("Ctrl-C before the solvers have joined ends the run") {

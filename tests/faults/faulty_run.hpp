@@ -68,13 +68,14 @@ class FaultyRun {
 
   /// The command that the run prints for the side it waits for.
   std::vector<std::string> command_by_hand() const {
+    const std::regex command("\n *(\\S+) (\\S+) --join (talus-\\S+)\n");
     std::smatch line;
+    std::string text = output();  // outlives what is found in it
     const auto deadline = std::chrono::steady_clock::now() + end_limit;
-    for (std::string text = output();
-         !std::regex_search(text, line, std::regex("\n *(\\S+) (\\S+) --join (talus-\\S+)\n"));
-         text = output()) {
+    while (!std::regex_search(text, line, command)) {
       REQUIRE(std::chrono::steady_clock::now() < deadline);
       std::this_thread::sleep_for(5ms);
+      text = output();
     }
     return {line[1], line[2], "--join", line[3]};
   }

@@ -9,12 +9,11 @@ TEST_CASE("a structure in Python that fails is named with the window, in weak an
     const char *how, *told;
     int code;
   };
-  const auto fault =
-      GENERATE(Fault{"exit", "ended with exit code 7", transport},
-               Fault{"killed", "was killed by signal 9 (SIGKILL)", transport},
-               Fault{"asleep", "gave no answer for 2 s (hangs; its process sleeps)", transport},
-               Fault{"throws", "RuntimeError: the matrix is singular", transport},
-               Fault{"numerical", "displacement is not finite at step 20", numerical});
+  const auto fault = GENERATE(Fault{"exit", "ended with exit code 7", transport},
+                              Fault{"killed", "was killed by signal 9 (SIGKILL)", transport},
+                              Fault{"asleep", "gave no answer for 2 s (stuck: sleeps, 0 % CPU)", transport},
+                              Fault{"throws", "RuntimeError: the matrix is singular", transport},
+                              Fault{"numerical", "displacement is not finite at step 20", numerical});
   FaultyRun run({.structure = fault.how,
                  .coupling = "timeout: 2 s, join_timeout: 60 s, " + GENERATE(from_range(schemes)),
                  .structure_program = TALUS_SOURCE_DIR "/tests/faults/dummy_structure.py"});

@@ -19,6 +19,7 @@ Program::Program(const std::vector<std::string>& command, const std::filesystem:
   pid_ = fork();
   if (pid_ != 0) return;
   setpgid(0, 0);
+  ::signal(SIGHUP, SIG_DFL);  // the tests may run under nohup
   const int file = open(output.c_str(), O_CREAT | O_WRONLY | O_APPEND, 0600);
   dup2(file, STDOUT_FILENO);
   dup2(file, STDERR_FILENO);
@@ -46,6 +47,10 @@ void Program::signal(int number) const {
   kill(pid_, number);
 }
 
+void Program::signal_group(int number) const {
+  kill(-pid_, number);
+}
+
 std::vector<ChildProcess> children_of(int pid) {
   const std::string self = std::to_string(pid);
   std::ifstream list("/proc/" + self + "/task/" + self + "/children");
@@ -61,6 +66,12 @@ std::vector<ChildProcess> children_of(int pid) {
 bool exists(int pid) {
   // A zombie is gone for this purpose only if its parent has reaped it; the coupler has to.
   return std::filesystem::exists("/proc/" + std::to_string(pid));
+}
+
+bool is_running(int pid) {
+  const std::string status = text_of("/proc/" + std::to_string(pid) + "/stat");
+  const auto bracket = status.rfind(") ");
+  return bracket != std::string::npos && status[bracket + 2] != 'Z';
 }
 
 }  // namespace talus::test

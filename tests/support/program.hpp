@@ -27,6 +27,8 @@ class Program {
   Ended wait(std::chrono::seconds limit = std::chrono::seconds(30));
   /// Sends a signal to the program alone.
   void signal(int number) const;
+  /// Sends it to its whole process group, as a terminal that is closed does.
+  void signal_group(int number) const;
 
  private:
   int pid_ = -1;
@@ -40,5 +42,7 @@ struct ChildProcess {
 };
 std::vector<ChildProcess> children_of(int pid);
 bool exists(int pid);
+/// Likewise, but one that has ended and that nobody has reaped yet does not count.
+bool is_running(int pid);
 
 }  // namespace talus::test

@@ -39,7 +39,11 @@ coupler::StepLimit limit_from(const py::handle& limit) {
 coupler::Effect effect_from(const py::handle& effect) {
   return {.name = effect.attr("name").cast<std::string>(),
           .present = effect.attr("present").cast<bool>(),
-          .reason = effect.attr("reason").cast<std::string>()};
+          .reason = effect.attr("reason").cast<std::string>(),
+          .key = effect.attr("key").cast<std::string>(),
+          .ledger_line = effect.attr("ledger_line").cast<std::string>(),
+          .may_hold = effect.attr("may_hold").cast<bool>(),
+          .limit = effect.attr("limit").cast<std::string>()};
 }
 
 core::ProbeDescription probe_from(const py::handle& name) {

@@ -1,10 +1,15 @@
 #include <signal.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <array>
 #include <catch2/catch.hpp>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <new>
 #include <nlohmann/json.hpp>
 
 #include "core/parallel.hpp"
@@ -66,6 +71,10 @@ TEST_CASE("each kind of error has its exit code") {
         }) == code(ExitCode::transport));
   CHECK(exit_of_throwing([] { throw core::NumericalError({.what = "x", .entity = "node 1"}); }) ==
         code(ExitCode::numerical));
+  CHECK(exit_of_throwing([] { throw core::FileError("a/b.csv", "written", ENOSPC); }) ==
+        code(ExitCode::machine));
+  CHECK(exit_of_throwing([] { std::filesystem::create_directory("/proc/none"); }) == code(ExitCode::machine));
+  CHECK(exit_of_throwing([] { throw std::bad_alloc(); }) == code(ExitCode::machine));
   CHECK(exit_of_throwing([] { throw std::runtime_error("odd"); }) == code(ExitCode::bug));
   CHECK(exit_of_throwing([] { throw 3; }) == code(ExitCode::bug));
   CHECK(exit_of({"scene.yaml"}, [](const auto&) { return ExitCode::interrupted; }) ==
@@ -97,18 +106,50 @@ TEST_CASE("the options of a solver reach its run") {
   CHECK(core::RunOptions{}.folder_for("a/net.yaml") == "results/net");
 }
 
-TEST_CASE("the first stop signal asks, the second kills; a joined solver leaves Ctrl-C to its commander") {
-  const auto asked = [](const auto&) {
-    ::raise(SIGTERM);
-    return core::stop_requested() ? ExitCode::interrupted : ExitCode::bug;
+TEST_CASE("each signal that asks a run to end does so however often it comes, and a second Ctrl-C kills") {
+  const int signal = GENERATE(SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGUSR2);
+  ::signal(SIGHUP, SIG_DFL);  // the tests may run under nohup
+  const auto asked = [signal](const auto&) {
+    ::raise(signal);
+    ::raise(signal);  // as `timeout` does: to the program, then to its group
+    const bool named = core::stop_reason() == std::string("stopped by SIG") + sigabbrev_np(signal);
+    return core::stop_requested() && named ? ExitCode::interrupted : ExitCode::bug;
   };
   CHECK(exit_of({"scene.yaml"}, asked) == code(ExitCode::interrupted));
-  CHECK(exit_of({"scene.yaml"},
-                [&](const auto& c) { return asked(c), ::raise(SIGTERM), ExitCode::success; }) == -SIGTERM);
-  const auto ignored = [](const auto&) {
-    return ::raise(SIGINT), core::stop_requested() ? ExitCode::bug : ExitCode::success;
+  const auto later = [&](const auto& command) {
+    const ExitCode first = asked(command);
+    ::usleep(600'000);  // half a second tells the second press of a key from a signal that comes twice
+    return ::raise(signal), first;
+  };
+  CHECK(exit_of({"scene.yaml"}, later) == (signal == SIGINT ? -SIGINT : code(ExitCode::interrupted)));
+}
+
+TEST_CASE("a joined solver leaves the signals that ask a run to end to its commander") {
+  const int signal = GENERATE(SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGUSR2, SIGPIPE);
+  const auto ignored = [signal](const auto&) {
+    return ::raise(signal), core::stop_requested() ? ExitCode::bug : ExitCode::success;
   };
   CHECK(exit_of({"scene.yaml", "--join", "segment"}, ignored) == 0);
+}
+
+TEST_CASE("a program started with nohup goes on when its terminal is closed") {
+  const auto closed = [](const auto&) {
+    return ::raise(SIGHUP), core::stop_requested() ? ExitCode::bug : ExitCode::success;
+  };
+  ::signal(SIGHUP, SIG_IGN);
+  CHECK(exit_of({"scene.yaml"}, closed) == 0);
+  ::signal(SIGHUP, SIG_DFL);
+}
+
+TEST_CASE("messages reach the screen when log.txt cannot be written any more") {
+  const test::Folder folder("full_log");
+  CHECK(exit_of_throwing([&] {
+          core::open_log_file(folder / "log.txt");
+          const rlimit as_it_is{std::filesystem::file_size(folder / "log.txt"), RLIM_INFINITY};
+          if (::setrlimit(RLIMIT_FSIZE, &as_it_is) != 0) ::_exit(99);  // of this child process
+          core::log_error("said to a full disk");
+          throw core::ConfigError("the first cause");
+        }) == code(ExitCode::config));
 }
 
 TEST_CASE("log.txt holds what was said before it was opened, and nothing below info") {

@@ -118,6 +118,18 @@ TEST_CASE("a path is relative to the file it was written in, which may be one th
   CHECK(file.path_at("section").empty());
 }
 
+TEST_CASE(
+    "the files that a scene names are found from the folders they are written in, and nothing else is") {
+  Folder folder;
+  folder.add("bases/net.msh", "")
+      .add("own.obj", "")
+      .add("unnamed.obj", "")
+      .add("bases/base.yaml", "section: {mesh: net.msh, word: bases}");
+  folder.add("scene.yaml", "extends: bases/base.yaml\nlist: [{file: own.obj}, own.obj, none.obj, 3]");
+  const auto files = core::SceneFile::load(folder / "scene.yaml").named_files();
+  CHECK(files == std::vector<std::filesystem::path>{folder / "bases/net.msh", folder / "own.obj"});
+}
+
 TEST_CASE("a scene that extends itself, a missing base and a base that is no path are errors at the key") {
   Folder folder;
   folder.add("a.yaml", "extends: b.yaml")

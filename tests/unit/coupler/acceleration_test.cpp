@@ -65,14 +65,37 @@ TEST_CASE("IQN-ILS keeps what it learned in one window for the next") {
   CHECK(iterations(problem, acceleration, 1e-8, 100) <= 2);
 }
 
-TEST_CASE("IQN-ILS forgets windows that are too old and never holds more columns than allowed") {
-  IqnIls acceleration({.most_columns = 5, .reused_windows = 2});
-  for (unsigned window = 0; window < 6; ++window) {
-    iterations(LinearProblem::random(3, 0.4, window), acceleration, 1e-9, 20);
-    CHECK(acceleration.columns() <= 5);
+namespace {
+
+/// Columns at the end of each of the first windows, all of three iterations: two columns each.
+std::vector<std::size_t> columns_of_windows(IqnIls::Settings settings) {
+  const auto problem = LinearProblem::random(8, 0.4, 1);
+  IqnIls acceleration(settings);
+  std::vector<std::size_t> columns;
+  for (int window = 0; window < 5; ++window) {
+    iterations(problem, acceleration, 0, 3);
+    columns.push_back(acceleration.columns());
   }
-  for (int window = 0; window < 3; ++window) acceleration.begin_window();
-  CHECK(acceleration.columns() == 0);
+  return columns;
+}
+
+}  // namespace
+
+TEST_CASE("IQN-ILS forgets windows that are too old and never holds more columns than allowed") {
+  using Columns = std::vector<std::size_t>;
+  CHECK(columns_of_windows({.most_columns = 50, .reused_windows = 2}) == Columns{2, 4, 6, 6, 6});
+  CHECK(columns_of_windows({.most_columns = 50, .reused_windows = 0}) == Columns{2, 2, 2, 2, 2});
+  CHECK(columns_of_windows({.most_columns = 5, .reused_windows = 2}) == Columns{2, 4, 5, 5, 5});
+}
+
+TEST_CASE("IQN-ILS drops its oldest columns first: of another problem, once it holds as many of its own") {
+  constexpr int unknowns = 4;
+  IqnIls acceleration({.most_columns = unknowns, .reused_windows = 8, .filter = 1e-7});
+  iterations(LinearProblem::random(unknowns, 0.5, 5), acceleration, 1e-8, 20);
+  const auto other = LinearProblem::random(unknowns, 0.5, 6);
+  CHECK(iterations(other, acceleration, 1e-8, 50) <= unknowns + 2);
+  // By now all columns are the other problem's own. Were the newest dropped, this would take seven.
+  CHECK(iterations(other, acceleration, 1e-8, 50) <= 2);
 }
 
 TEST_CASE("a column that says nothing new does not spoil the model") {

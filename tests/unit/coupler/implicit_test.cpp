@@ -272,29 +272,62 @@ TEST_CASE("particles that do not move light nodes are refused where the scheme a
 }
 
 TEST_CASE("a strong impact keeps the energy and finds the peak where the weak scheme loses both") {
-  // Mass ratio 100; the window is ten times what plain iteration allows, 2 sqrt(m/k) = 0.9 ms being the
-  // limit.
+  // Mass ratio 100; the window is a little longer than plain iteration allows, 2 sqrt(m/k) = 0.9 ms.
   const test::SphereOnSpring system;
-  const double length = 2e-4;
+  const double length = 1e-3, impact = 0.5 * system.sphere_mass * std::pow(system.sphere_velocity, 2);
   const auto reference = test::undivided(system, 1e-7);
-  const auto error_of_peak = [&](auto make_scheme) {
+  struct Errors {
+    double peak, energy;  // relative
+  };
+  const auto errors_of = [&](auto make_scheme) {
     test::SphereState sphere;
     test::CoupledPair pair([&](auto& p) { test::serve_structure(p, system); },
                            [&](auto& p) { test::serve_sphere(p, system, sphere); }, {length});
     auto scheme = make_scheme(pair.exchange());
-    double peak = 0;
+    double peak = 0, worst = 0;
     for (int n = 0; n * length < 1.2 * reference.contact; ++n) {
       scheme.compute(pair.exchange(), {.index = n, .unit = length});
       peak = std::max(peak, -pair.displacement());
+      // All of it at the window's end: two masses, the spring to the ground and that of the contact.
+      const double u = pair.displacement(), v = pair.velocity(), overlap = std::max(0.0, u - sphere.position);
+      const double energy = 0.5 * system.sphere_mass * sphere.velocity * sphere.velocity +
+                            0.5 * system.structure_mass * v * v + 0.5 * system.structure_stiffness * u * u +
+                            0.5 * system.contact_stiffness * overlap * overlap;
+      worst = std::max(worst, std::abs(energy / impact - 1));
     }
-    return std::abs(peak / reference.peak - 1);
+    return Errors{std::abs(peak / reference.peak - 1), worst};
   };
-  const double weak = error_of_peak([](Exchange&) { return SerialExplicit{}; });
-  const double strong = error_of_peak([](Exchange& exchange) {
+  const Errors weak = errors_of([](Exchange&) { return SerialExplicit{}; });
+  const Errors strong = errors_of([](Exchange& exchange) {
     return Implicit(MotionUnknown(exchange), Aitken(0.5), Convergence{.relative = 1e-5}, Predictor::linear);
   });
-  CHECK(strong < 0.02);
-  CHECK(strong < weak);
+  // The same scheme in a few lines apart from this program: the strong windows miss the peak by 1.5e-3 and the
+  // energy by 1.6e-5, the weak ones throw the sphere back with 160 times what it brought.
+  CHECK(strong.peak < 3e-3);
+  CHECK(strong.energy < 1e-4);
+  CHECK(weak.peak > 1);
+  CHECK(weak.energy > 1);
+}
+
+TEST_CASE("windows with contact are counted apart from free flight, with their own worst") {
+  const test::SphereOnSpring system;
+  const double length = 1e-4;
+  const auto contact = test::undivided(system, 1e-7).contact;
+  const auto tally_of = [&](const Convergence& convergence) {
+    test::SphereState sphere;
+    test::CoupledPair pair([&](auto& p) { test::serve_structure(p, system); },
+                           [&](auto& p) { test::serve_sphere(p, system, sphere); }, {length});
+    Implicit scheme(MotionUnknown(pair.exchange()), Aitken(0.5), convergence, Predictor::linear);
+    for (int n = 0; n * length < 3 * contact; ++n)
+      scheme.compute(pair.exchange(), {.index = n, .unit = length});
+    return scheme.tally();
+  };
+  const auto iterating = tally_of({.relative = 1e-5});
+  CHECK(iterating.in_contact > 0);
+  CHECK(iterating.in_contact < iterating.windows);
+  CHECK(iterating.most_in_contact == iterating.most);
+  CHECK(iterating.most_in_contact > 1);
+  CHECK(tally_of({.relative = 1e9, .absolute = {1e9, 1e9, 1e9}}).most_in_contact == 1);
 }
 
 TEST_CASE("an impact on a light node that plain iteration cannot compute is rescued by halving") {

@@ -25,7 +25,13 @@ TEST_CASE("a surface arrives as it was sent") {
 TEST_CASE("a declaration arrives as it was sent") {
   Declaration sent{.program = "dummy 1.0", .step = 5e-5, .insists_on_step = true};
   sent.limits = {{.name = "bars", .seconds = 6e-5, .stability = true, .reason = "2/w"}};
-  sent.effects = {{.name = "friction", .present = true, .reason = "named"}};
+  sent.effects = {{.name = "friction",
+                   .present = true,
+                   .reason = "named",
+                   .key = "contacts.friction",
+                   .ledger_line = "dummy.friction_J",
+                   .may_hold = true,
+                   .limit = "none"}};
   sent.outputs.probes = {{"a.displacement_z_m", "node 7 of net"}};
   sent.outputs.ledger = {{"structure.kinetic_J", core::LedgerKind::stored},
                          {"structure.damping_J", core::LedgerKind::dissipated}};
@@ -46,6 +52,11 @@ TEST_CASE("a declaration arrives as it was sent") {
   REQUIRE(got.outputs.probes.size() == 1);
   CHECK(got.outputs.probes[0].name == "a.displacement_z_m");
   CHECK(got.outputs.probes[0].watches == "node 7 of net");
+  REQUIRE(got.effects.size() == 1);
+  CHECK(got.effects[0].key == "contacts.friction");
+  CHECK(got.effects[0].ledger_line == "dummy.friction_J");
+  CHECK(got.effects[0].may_hold);
+  CHECK(got.effects[0].limit == "none");
   REQUIRE(got.outputs.ledger.size() == 2);
   CHECK(got.outputs.ledger[1].kind == core::LedgerKind::dissipated);
   REQUIRE(got.outputs.groups.size() == 1);
@@ -77,6 +88,10 @@ TEST_CASE("errors of a participant are the same errors in the coupler") {
   const core::NumericalError numerical(
       {.what = "x is not finite", .entity = "node 3", .step = 7, .time = 0.1, .value = NAN});
   CHECK_THROWS_WITH(throw_failure(encode_failure(numerical), context), std::string(numerical.what()));
+  const core::FileError full("state.part", "written", ENOSPC);
+  CHECK_THROWS_AS(throw_failure(encode_failure(full), context), core::MachineError);
+  CHECK_THROWS_WITH(throw_failure(encode_failure(full), context),
+                    "structure (x, pid 1): 'state.part' cannot be written: No space left on device");
   CHECK_THROWS_WITH(throw_failure(encode_failure(std::runtime_error("no licence")), context),
                     Contains("structure (x, pid 1) gave up (no licence)") && Contains("window 4"));
 }

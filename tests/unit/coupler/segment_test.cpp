@@ -1,7 +1,9 @@
 #include <fcntl.h>
 #include <signal.h>
 #include <sys/mman.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/statvfs.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -137,5 +139,45 @@ TEST_CASE("a process is told apart from a later one with the same id") {
   const ProcessIdentity self = this_process();
   CHECK(ProcessHandle(self).alive());
   CHECK_FALSE(ProcessHandle({.pid = self.pid, .start = self.start + 1}).alive());
-  CHECK(process_condition(self.pid) == "runs");
+  CHECK(activity_of(self.pid)->state == ProcessActivity::State::runs);
+}
+
+TEST_CASE("a process is not taken for dead because no descriptor is left to watch it") {
+  const pid_t child = fork();
+  if (child == 0) {
+    pause();
+    _exit(0);
+  }
+  const ProcessIdentity identity = identify(child);
+  rlimit usual{};
+  getrlimit(RLIMIT_NOFILE, &usual);
+  const int next = dup(STDIN_FILENO);
+  close(next);
+  rlimit none_left = usual;
+  none_left.rlim_cur = static_cast<rlim_t>(next);
+  setrlimit(RLIMIT_NOFILE, &none_left);
+  const ProcessHandle handle(identity);
+  const bool alive = handle.alive();
+  setrlimit(RLIMIT_NOFILE, &usual);
+  CHECK(alive);
+  CHECK_FALSE(handle.wait_end(30));
+  handle.send_signal(SIGKILL);
+  CHECK(handle.wait_end(5000));
+  CHECK(waitpid(child, nullptr, 0) == child);
+}
+
+TEST_CASE("shared memory that does not suffice is an error that says how much and how to enlarge it") {
+  struct statvfs room {};
+  REQUIRE(statvfs("/dev/shm", &room) == 0);
+  if (room.f_blocks == 0) return;  // this machine sets no limit
+  const auto segment = create_shared_segment();
+  const std::size_t size = room.f_blocks * room.f_frsize;
+  try {
+    segment->create_data(size);
+    FAIL("not refused");
+  } catch (const core::MachineError& error) {
+    CHECK_THAT(error.what(), Contains("of shared memory, but /dev/shm has ") &&
+                                 Contains("docker run --shm-size=") && Contains("mount -o remount,size="));
+  }
+  CHECK(segment->real_bytes() < size);  // nothing was taken
 }

@@ -1,7 +1,9 @@
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <array>
 #include <random>
+#include <utility>
 
 #include "dem_solver/output/checkpoint.hpp"
 #include "tests/support/folder.hpp"
@@ -150,7 +152,7 @@ TEST_CASE("A checkpoint of another scene is refused") {
                     Catch::Contains("cannot be read as a checkpoint"));
 }
 
-TEST_CASE("The neighbour list finds every touching pair of sizes 1 to 200") {
+TEST_CASE("The neighbour list has every touching pair of sizes 1 to 200 once, and no other") {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> u(0, 1);
   std::vector<SphereInput> input;
@@ -164,13 +166,20 @@ TEST_CASE("The neighbour list finds every touching pair of sizes 1 to 200") {
   spheres.add(input, false);
   PairList list;
   const double skin = 0.001;
-  list.rebuild(spheres, {.skin = skin});
-  std::size_t expected = 0;
+  const auto [place, moves] = list.rebuild(spheres, {.skin = skin});
+  using Pair = std::pair<Index, Index>;
+  std::vector<Pair> expected, found;
   for (std::size_t i = 0; i < input.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
       if (length(input[i].position - input[j].position) < input[i].radius + input[j].radius + skin)
-        ++expected;
-  CHECK(list.other().size() + list.wide().size() == expected);
+        expected.push_back(std::minmax(place[i], place[j]));
+  for (Index i = 0; i < static_cast<Index>(input.size()); ++i)
+    for (Index slot = list.first()[i]; slot < list.first()[i + 1]; ++slot)
+      found.push_back(std::minmax(i, list.other()[slot]));
+  for (const auto& wide : list.wide()) found.push_back(std::minmax(wide.first, wide.second));
+  std::ranges::sort(expected);
+  std::ranges::sort(found);
+  CHECK(found == expected);  // each pair, and each once
   CHECK_FALSE(list.wide().empty());
 }
 

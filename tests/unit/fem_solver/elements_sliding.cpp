@@ -174,6 +174,9 @@ TEST_CASE("a slider pushed against the end of its rope by less than the tension 
   const double N = rope.tension(chords_of(x)), P = 0.5 * N;
   const Eigen::VectorXd f = sliding_force(rope, x);
   CHECK(f[3] == Approx(-P).epsilon(1e-12));  // internal force: the push that holds the slider there
-  CHECK(sliding_stiffness(rope, x)(3, 3) ==
-        Approx(N / gap + rope.law.tension_slope(1) / 2.9 * 0.25).epsilon(0.1));
+  // A move of the slider along the rope turns the tip, N/g, and changes the length by r/g - 1 = -1/2 of itself,
+  // which is (r^2/g + g)/2 + 3 - r here: q of it over 2.9 m, N = A (E (q^2 - 1)/2 + S) q.
+  const double q = (0.625 * gap + 3 - 0.5 * gap) / 2.9;
+  const double slope = steel.area * (0.5 * steel.youngs_modulus * (3 * q * q - 1) + steel.prestress);
+  CHECK(sliding_stiffness(rope, x)(3, 3) == Approx(N / gap + 0.25 * slope / 2.9).epsilon(1e-12));
 }

@@ -107,15 +107,24 @@ TEST_CASE("damping, loads, gravity and moving supports close the energy balance"
   const double limit = Run::limit(model);
   Run run(std::move(model), 0.5 * limit);
   const double start = total(run.solver.balance());
-  double largest_kinetic = 0, worst = 0;
+  double largest_kinetic = 0, worst = 0, damped = 0;
+  EnergyBalance largest{};  // of each line
   for (int k = 0; k < 100; ++k) {
     run.steps(20);
     const EnergyBalance balance = run.solver.balance();
     largest_kinetic = std::max(largest_kinetic, balance.kinetic);
     worst = std::max(worst, std::abs(total(balance) - start));
-    CHECK(balance.bulk_damping >= 0);
+    CHECK(balance.bulk_damping >= damped);
+    damped = balance.bulk_damping;
+    for (const auto line : {&EnergyBalance::gravity, &EnergyBalance::loads, &EnergyBalance::supports})
+      largest.*line = std::max(largest.*line, std::abs(balance.*line));
   }
-  CHECK(worst < 1e-3 * largest_kinetic);
+  // Measured 1e-6: the trapezoidal work of the net's nonlinear forces. Stiffness damping, the smallest line, takes
+  // a fortieth of the kinetic energy, so it is checked to a two-thousandth of itself.
+  CHECK(worst < 1e-5 * largest_kinetic);
+  CHECK(damped > 1.5 * largest_kinetic);
+  for (const auto line : {&EnergyBalance::gravity, &EnergyBalance::loads, &EnergyBalance::supports})
+    CHECK(largest.*line > 0.2 * largest_kinetic);
 }
 
 TEST_CASE("a supported node follows its prescribed motion and its neighbours feel it") {
@@ -126,7 +135,9 @@ TEST_CASE("a supported node follows its prescribed motion and its neighbours fee
   Run run(std::move(model), 2e-5);
   run.steps(50);
   CHECK(run.solver.state().displacement[0] == Approx(1e-3).epsilon(1e-12));
-  CHECK(run.solver.state().displacement[12] > 0.5e-3);
+  // The same chain integrated apart from this program, in steps of 1 us; those of 20 us are off by a quarter of a
+  // per cent.
+  CHECK(run.solver.state().displacement[12] == Approx(0.83039e-3).epsilon(5e-3));
 }
 
 TEST_CASE("a reaction at rest is the weight it carries") {

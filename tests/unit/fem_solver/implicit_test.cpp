@@ -35,15 +35,19 @@ TEST_CASE("the trapezoidal rule turns a linear oscillator by its own angle") {
   }
 }
 
-TEST_CASE("a spectral radius of 0 removes what the step cannot resolve, within two steps") {
+TEST_CASE("a spectral radius of 0 removes what the step cannot resolve, from the third step on") {
   const Model model = tests::oscillator();
   const double w = std::sqrt(2e11 * 1e-4 / (7850 * 1e-4 / 2)), step = 1e4 / w;
   Assembly assembly(model);
   ImplicitSolver solver(model, assembly,
                         {.step = step, .spectral_radius = 0, .newton = {.tolerance = 1e-14}});
-  solver.state().displacement[3] = 1e-7;
-  for (int n = 0; n < 6; ++n) solver.advance(n * step, step);
-  CHECK(std::abs(solver.displacement()[3]) < 1e-6 * 1e-7);
+  constexpr double amplitude = 1e-7;
+  solver.state().displacement[3] = amplitude;
+  for (int n = 0; n < 6; ++n) {
+    solver.advance(n * step, step);
+    // All three roots of the step's amplification vanish as (w dt)^-2 = 1e-8; what they leave is 2e-8 at most.
+    if (n >= 2) CHECK(std::abs(solver.displacement()[3]) < 1e-7 * amplitude);
+  }
 }
 
 TEST_CASE("halving the implicit step divides its error by four") {
@@ -104,10 +108,20 @@ TEST_CASE("an implicit run closes its energy balance with loads, gravity, dampin
                         {.step = 1e-4, .spectral_radius = 1, .newton = {.tolerance = 1e-12}});
   const double start = total(solver.balance());
   double largest_kinetic = 0, worst = 0;
+  EnergyBalance largest{};  // of each line
   for (int k = 0; k < 400; ++k) {
     solver.advance(k * 1e-4, 1e-4);
-    largest_kinetic = std::max(largest_kinetic, solver.balance().kinetic);
-    worst = std::max(worst, std::abs(total(solver.balance()) - start));
+    const EnergyBalance balance = solver.balance();
+    largest_kinetic = std::max(largest_kinetic, balance.kinetic);
+    worst = std::max(worst, std::abs(total(balance) - start));
+    for (const auto line : {&EnergyBalance::gravity, &EnergyBalance::bulk_damping, &EnergyBalance::loads,
+                            &EnergyBalance::supports})
+      largest.*line = std::max(largest.*line, std::abs(balance.*line));
   }
-  CHECK(worst < 1e-2 * largest_kinetic);
+  // The trapezoidal rule of the works and that of the motion are the same: only the net's change of shape within
+  // a step is missed, 2e-7 of the kinetic energy. So a line off by a ten-thousandth of itself is found.
+  CHECK(worst < 1e-5 * largest_kinetic);
+  for (const auto line : {&EnergyBalance::gravity, &EnergyBalance::bulk_damping, &EnergyBalance::loads,
+                          &EnergyBalance::supports})
+    CHECK(largest.*line > 0.1 * largest_kinetic);
 }

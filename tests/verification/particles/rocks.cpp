@@ -1,6 +1,8 @@
 #include <Eigen/Dense>
 #include <catch2/catch.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "dem_solver/rocks/ball_union.hpp"
@@ -77,10 +79,22 @@ TEST_CASE("A filling's spheres stay inside the rock and come closer to it with a
   double last = 1;
   for (double deviation : {0.2, 0.1}) {
     const SphereFilling filling = fill_with_spheres(block, {.deviation = deviation});
-    for (const Ball& ball : filling.balls)
+    for (const Ball& ball : filling.balls) {
       for (int k = 0; k < 3; ++k) REQUIRE(std::abs(ball.centre[k]) + ball.radius <= 0.5 + 1e-12);
-    CHECK(filling.deviation < last);
-    last = filling.deviation;
+      // The faces cut off the corners: |x| + |y| + |z| = 3/2 - 1/4.
+      REQUIRE(ball.centre.lpNorm<1>() + std::sqrt(3.0) * ball.radius <= 1.25 + 1e-12);
+    }
+    double largest = 0;
+    for (mesh::Index node = 0; node < block.node_count(); ++node) {
+      const core::Vector3 at = core::Vector3::Map(&block.positions[3 * static_cast<std::size_t>(node)]);
+      double nearest = 1;
+      for (const Ball& ball : filling.balls)
+        nearest = std::min(nearest, (ball.centre - at).norm() - ball.radius);
+      largest = std::max(largest, nearest);
+    }
+    CHECK(filling.deviation == Approx(largest).epsilon(1e-12));
+    CHECK(largest < last);
+    last = largest;
   }
 }
 
@@ -130,21 +144,37 @@ TEST_CASE("A surface with a hole is refused as a rock") {
   CHECK_THAT(closed_surface_fault(block), Catch::Contains("not closed"));
 }
 
-TEST_CASE("A free asymmetric top keeps its energy and angular momentum over a million steps") {
+TEST_CASE(
+    "A free asymmetric top keeps its energy over a million steps and turns with its closed form's period") {
   const Triple<double> moments{1, 2, 3.5}, momentum{0.3, 2.1, 0.4};
   const auto energy = [&](const Quaternion& q) {
     return 0.5 * dot(momentum, angular_velocity(q, momentum, moments));
   };
   Quaternion q{0, 0, 0, 1};
-  const double start = energy(q);
-  double worst = 0;
-  for (int n = 0; n < 1'000'000; ++n) {
-    q = turned(q, {momentum, moments, 1e-3});
+  const double start = energy(q), step = 1e-3;
+  double worst = 0, before = momentum.y;
+  std::vector<double> zeros;  // s; where the momentum along the middle axis of the body changes to positive
+  for (int n = 1; n <= 1'000'000; ++n) {
+    q = turned(q, {momentum, moments, step});
     if (n % 100 == 0) worst = std::max(worst, std::abs(energy(q) / start - 1));
+    const double now = rotate_back(q, momentum).y;
+    if (before < 0 && now >= 0) zeros.push_back(step * (n - now / (now - before)));
+    before = now;
   }
   // The error of a second-order step oscillates with (w step)^2 ~ 1e-6 and does not grow.
   CHECK(worst < 1e-6);
   CHECK(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w == Approx(1).epsilon(1e-12));
+  // Landau and Lifshitz, Mechanics, section 37: T = 4 K(k) sqrt(I1 I2 I3/((I2 - I1) (2 E I3 - M^2))) where
+  // M^2 < 2 E I2, k^2 = (I3 - I2) (M^2 - 2 E I1)/((I2 - I1) (2 E I3 - M^2)).
+  const double M2 = dot(momentum, momentum), E2 = 2 * start;
+  const auto& [I1, I2, I3] = moments;
+  REQUIRE(M2 < E2 * I2);
+  const double apart = (I2 - I1) * (E2 * I3 - M2);
+  const double period =
+      4 * std::comp_ellint_1(std::sqrt((I3 - I2) * (M2 - E2 * I1) / apart)) * std::sqrt(I1 * I2 * I3 / apart);
+  REQUIRE(zeros.size() > 40);
+  CHECK((zeros.back() - zeros.front()) / static_cast<double>(zeros.size() - 1) ==
+        Approx(period).epsilon(1e-5));
 }
 
 TEST_CASE("A rock of one sphere moves like the sphere") {

@@ -1,13 +1,15 @@
 #include "coupler/study/study.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <chrono>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "core/program/log.hpp"
-#include "coupler/study/analysis.hpp"
+#include "coupler/study/load.hpp"
 #include "coupler/study/plan.hpp"
 #include "coupler/study/runner.hpp"
-#include "coupler/study/values.hpp"
 #include "tests/support/folder.hpp"
 
 namespace talus {
@@ -28,10 +30,11 @@ study:
   quantities:
     peak: {peak: {column: net.z}}
     course: {history: {column: net.z, until: 1 s}}
-    energy: {summary: {pointer: /energy/error_relative, ideal: 0}}
+    energy: {summary: {pointer: /energy/largest_error_relative, ideal: 0}}
   reference: {method: second, values: [40 ms, 20 ms, 10 ms], order: 2}
-  second: {method: first, values: [4 ms, 2 ms], order: 1}
+  second: {method: first, values: [8 ms, 4 ms, 2 ms], order: 1}
   repeats: 2
+  largest_energy_error: 1
 )";
 
 struct Study {
@@ -43,6 +46,17 @@ struct Study {
     return {.study = folder / "study.yaml", .out = folder / "out", .program = TALUS_FAKE_PROGRAM};
   }
   json result() const { return json::parse(test::text_of(folder / "out/study.json")); }
+  /// How often the fake program was asked to compute the point.
+  std::ptrdiff_t runs_of(const std::string& id) const {
+    const auto order = this->order();
+    return std::count(order.begin(), order.end(), id);
+  }
+  std::vector<std::string> order() const {
+    std::ifstream file(folder / "order.txt");
+    std::vector<std::string> all;
+    for (std::string line; std::getline(file, line);) all.push_back(line);
+    return all;
+  }
   mutable Folder folder;
 };
 
@@ -79,7 +93,9 @@ TEST_CASE("a study finds the errors of a model that is known, against its extrap
   const json& peak = quantity(result, "peak");
   CHECK(peak.at("reference").get<double>() == Approx(3).epsilon(1e-13));
   CHECK(peak.at("observed_order").get<double>() == Approx(2).epsilon(1e-6));
-  CHECK(peak.at("floor").get<double>() < 1e-13);
+  CHECK(peak.at("second_differs").get<double>() < 1e-13);
+  // The truth is 3 and the finest run is 1e-4 off, which is how far the reference is trusted.
+  CHECK(peak.at("reference_high").get<double>() == Approx(3 + 1e-4).epsilon(1e-12));
   CHECK(peak.at("trusted") == true);
   CHECK(point(peak.at("points"), "first_100_ms").at("error").get<double>() == Approx(0.1 / 3));
   CHECK(point(peak.at("points"), "second_200_ms").at("error").get<double>() == Approx(0.04 / 3));
@@ -95,10 +111,11 @@ TEST_CASE("a point that broke down is shown with its outcome and message, not dr
   study::run_study(study.request());
   const json result = study.result();
   const json& broken = point(result.at("points"), "second_400_ms");
-  CHECK(broken.at("outcome") == "unstable");
+  CHECK(broken.at("outcome") == "failed");
+  CHECK(broken.at("detail") == "unstable");
   CHECK(broken.at("message") == "it blew up");
   CHECK_THAT(test::text_of(study.folder / "out/study.csv"),
-             Catch::Contains("second,400 ms,0.4,,unstable,,,,"));
+             Catch::Contains("second,400 ms,0.4,,failed,unstable,,,,"));
   CHECK_THAT(test::text_of(study.folder / "out/index.html"), Catch::Contains("it blew up"));
 }
 
@@ -106,7 +123,7 @@ TEST_CASE("a run that does not end is given up and shown as too slow") {
   Study study(replaced(replaced(study_text, "repeats: 2", "repeats: 1\n  time_limit: 0.5 s"),
                        "value: 300 ms}", "value: 300 ms}, {key: model.hangs, value: true}"));
   study::run_study(study.request());
-  CHECK(point(study.result().at("points"), "second_100_ms").at("outcome") == "too slow");
+  CHECK(point(study.result().at("points"), "second_100_ms").at("detail") == "too slow");
   CHECK_THAT(quantity(study.result(), "peak").at("note").get<std::string>(),
              Catch::Contains("did not succeed"));
 }
@@ -114,15 +131,14 @@ TEST_CASE("a run that does not end is given up and shown as too slow") {
 TEST_CASE("points that are complete are not run again, and those of a changed scene are") {
   const Study study;
   study::run_study(study.request());
-  const auto count = study.folder / "out/runs/first_100_ms/count.txt";
-  CHECK(test::text_of(count) == "xx");  // two repeats
-  const auto written = std::filesystem::last_write_time(count);
+  CHECK(study.runs_of("first_100_ms") == 2);
   study::run_study(study.request());
-  CHECK(std::filesystem::last_write_time(count) == written);
+  CHECK(study.runs_of("first_100_ms") == 2);
   std::ofstream(study.folder / "study.yaml")
       << replaced(study_text, "{key: model.order, value: 1}", "{key: model.order, value: 3}");
   study::run_study(study.request());
-  CHECK(std::filesystem::last_write_time(count) != written);
+  CHECK(study.runs_of("first_100_ms") == 4);
+  CHECK(study.runs_of("second_100_ms") == 2);
 }
 
 TEST_CASE(
@@ -134,8 +150,8 @@ TEST_CASE(
   const json result = study.result();
   CHECK(point(quantity(result, "peak").at("points"), "first_200_ms").at("error").get<double>() ==
         Approx(0.008 / 3));
-  CHECK(test::text_of(study.folder / "out/runs/first_200_ms/count.txt") == "xx");
-  CHECK(test::text_of(study.folder / "out/runs/first_4_ms/count.txt") == "x");
+  CHECK(study.runs_of("first_200_ms") == 2);
+  CHECK(study.runs_of("first_4_ms") == 1);
   CHECK_THAT(error_of(replaced(study_text, "first: {set: [", "first: {base: nothing.yaml, set: [")),
              Catch::Contains("study.methods.first.base: no such file"));
 }
@@ -163,6 +179,7 @@ study:
   across: {keys: [model.unstable_from], values: [150 ms, 300 ms], unit: s, label: limit}
   methods: {only: {}}
   repeats: 1
+  largest_energy_error: 1
 )");
   REQUIRE(study::run_study(study.request()) == core::ExitCode::success);
   const json result = study.result();
@@ -193,34 +210,9 @@ TEST_CASE("the winner is the fastest to an error and the most exact in a time") 
   const json& one_percent = peak.at("fastest_to").at(1);
   CHECK(one_percent.at("error") == 0.01);
   CHECK(one_percent.at("winner") == "second");
-  CHECK(one_percent.at("methods").at("second").get<double>() == Approx(1e-2));
+  CHECK(one_percent.at("methods").at("second").at("value").get<double>() == Approx(1e-2));
   CHECK_FALSE(one_percent.at("methods").contains("first"));
   CHECK(peak.at("most_exact_within").at(0).at("winner") == "second");
-}
-
-TEST_CASE("a point is on the Pareto front unless another is as good in both and better in one") {
-  const std::vector<study::Point> points{{"a", 0.1, 1},  {"a", 0.01, 2},  {"b", 0.1, 2},
-                                         {"b", 0.02, 3}, {"b", 0.001, 9}, {"c", 0.1, 1}};
-  CHECK(study::pareto_front(points) == std::vector<bool>{true, true, false, false, true, true});
-}
-
-TEST_CASE("Richardson's extrapolation removes the leading error of single numbers and histories") {
-  const auto value = [](double step) { return 5 - 2 * step * step; };
-  CHECK(
-      study::extrapolate({{}, {value(0.1)}}, {{}, {value(0.3)}}, {.ratio = 3, .order = 2}).numbers.front() ==
-      Approx(5).epsilon(1e-14));
-  const study::Values fine{{0, 1, 2}, {0, value(0.1), 2 * value(0.1)}}, coarse{{0, 2}, {0, 2 * value(0.2)}};
-  const auto limit = study::extrapolate(fine, coarse, {.ratio = 2, .order = 2});
-  CHECK(limit.numbers[1] == Approx(5).epsilon(1e-14));
-  CHECK(limit.numbers[2] == Approx(10).epsilon(1e-14));
-  CHECK(*study::observed_order({value(0.1), value(0.2), value(0.4)}, 2) == Approx(2).epsilon(1e-10));
-  CHECK_FALSE(study::observed_order({1, 2, 1}, 2));
-}
-
-TEST_CASE("a difference is relative to the second value, or plain where that is zero") {
-  CHECK(study::relative_difference({{}, {1.1}}, {{}, {1}}) == Approx(0.1));
-  CHECK(study::relative_difference({{}, {0.5}}, {{}, {0}}) == 0.5);
-  CHECK(study::relative_difference({{0, 2}, {0, 2}}, {{0, 1, 2}, {0, 1, 2}}) == 0);
 }
 
 TEST_CASE("the values of the sweep go to a method's own keys where it has some") {
@@ -251,12 +243,183 @@ TEST_CASE("what a study asks wrongly is told before anything runs") {
              Catch::Contains("either `quantities`"));
   CHECK_THAT(error_of(replaced(study_text, "base.yaml", "nothing.yaml")),
              Catch::Contains("study.base: no such file"));
-  CHECK_THAT(error_of(replaced(study_text, "[40 ms, 20 ms, 10 ms]", "[40 ms]")),
-             Catch::Contains("an extrapolation needs two values at least"));
+  CHECK_THAT(error_of(replaced(study_text, "[40 ms, 20 ms, 10 ms]", "[40 ms, 20 ms]")),
+             Catch::Contains("needs three values at least") && Catch::Contains("it has 2"));
   CHECK_THAT(error_of(replaced(study_text, "key: model.order", "key: 'model[0].order'")),
              Catch::Contains("set the whole list"));
   CHECK_THAT(error_of(replaced(study_text, "pointer: /energy", "pointer: energy")),
              Catch::Contains("must start with '/'"));
+}
+
+TEST_CASE(
+    "a point is computed anew where its base scene, a file that this names, or the program changed, and only "
+    "then") {
+  const Study study;
+  study.folder.add("net.msh", "nodes").add("other.txt", "");
+  study.folder.add("base.yaml", "mesh: net.msh\nmodel: {step: 1 s}\n");
+  std::filesystem::create_directory(study.folder / "bin");
+  auto request = study.request();
+  request.program = study.folder / "bin/talus";
+  std::filesystem::copy(TALUS_FAKE_PROGRAM, request.program);
+  std::ptrdiff_t expected = 2;
+  const auto runs_after = [&](bool again) {
+    study::run_study(request);
+    expected += again ? 2 : 0;
+    return study.runs_of("first_100_ms") == expected;
+  };
+  CHECK(runs_after(false));
+  study.folder.add("other.txt", "changed");  // which nothing names
+  study.folder.add("base.yaml", "# a comment\nmesh: net.msh\nmodel: {step: 1 s}\n");
+  CHECK(runs_after(false));
+  study.folder.add("base.yaml", "mesh: net.msh\nmodel: {step: 1 s, energy_factor: 0.5}\n");
+  CHECK(runs_after(true));
+  study.folder.add("net.msh", "other nodes");
+  CHECK(runs_after(true));
+  std::ofstream(request.program, std::ios::app) << "built anew";
+  CHECK(runs_after(true));
+  study.folder.add("bin/fem_solver", "a solver beside it");
+  CHECK(runs_after(true));
+}
+
+TEST_CASE(
+    "a page without new runs shows a point of another build as such, and one of another scene not at all") {
+  const Study study;
+  study.folder.add("bin/fem_solver", "of the first build");
+  auto request = study.request();
+  request.program = study.folder / "bin/talus";
+  std::filesystem::copy(TALUS_FAKE_PROGRAM, request.program);
+  study::run_study(request);
+  CHECK_FALSE(point(study.result().at("points"), "first_100_ms").contains("stale"));
+  request.page_only = true;
+  study.folder.add("bin/fem_solver", "of the second");
+  study::run_study(request);
+  CHECK(point(study.result().at("points"), "first_100_ms").at("stale") == "the programs were built anew");
+  study.folder.add("base.yaml", "model: {step: 1 s, energy_factor: 0.5}\n");
+  study::run_study(request);
+  const json result = study.result();
+  const json& stale = point(result.at("points"), "first_100_ms");
+  CHECK(stale.at("outcome") == "missing");
+  CHECK(stale.at("message") == "its scene changed since it was computed");
+}
+
+TEST_CASE(
+    "what the machine ended is tried again by the next call, what the scene or the numerics ended is not") {
+  const Study study;
+  study.folder.add("trouble", "");
+  study::run_study(study.request());
+  CHECK(study.runs_of("first_100_ms") == 1);  // not again and again in the same call
+  const json ended = study.result();
+  CHECK(point(ended.at("points"), "first_100_ms").at("outcome") == "failed");
+  CHECK_THAT(point(ended.at("points"), "first_100_ms").at("message").get<std::string>(),
+             Catch::Contains("killed by signal 9"));
+  std::filesystem::remove(study.folder / "trouble");
+  study::run_study(study.request());
+  CHECK(point(study.result().at("points"), "first_100_ms").at("outcome") == "ok");
+  CHECK(study.runs_of("second_400_ms") == 2);  // killed, then unstable
+  study::run_study(study.request());
+  CHECK(study.runs_of("second_400_ms") == 2);
+}
+
+TEST_CASE(
+    "a scene that is refused stays refused, a time limit that was too short does not once it is longer") {
+  Study study(
+      replaced(replaced(study_text, "value: 300 ms}", "value: 300 ms}, {key: model.nonsense, value: 1}"),
+               "{key: model.order, value: 1}", "{key: model.hangs, value: true}"));
+  std::ofstream(study.folder / "study.yaml", std::ios::app) << "  time_limit: 0.05 s\n";
+  study::run_study(study.request());
+  study::run_study(study.request());
+  CHECK(point(study.result().at("points"), "second_100_ms").at("detail") == "refused");
+  CHECK(study.runs_of("second_100_ms") == 1);
+  CHECK(study.runs_of("first_100_ms") == 1);
+  const std::string patient = replaced(test::text_of(study.folder / "study.yaml"), "0.05 s", "0.06 s");
+  study.folder.add("study.yaml", patient);
+  study::run_study(study.request());
+  CHECK(study.runs_of("second_100_ms") == 1);
+  CHECK(study.runs_of("first_100_ms") == 2);
+}
+
+TEST_CASE("repetitions are interleaved: every point once, methods in turn, before any point again") {
+  const Study study;
+  study::run_study(study.request());
+  const auto order = study.order();
+  const std::vector<std::string> shown{"first_100_ms",  "second_100_ms", "first_200_ms",
+                                       "second_200_ms", "first_400_ms",  "second_400_ms"};
+  REQUIRE(order.size() > shown.size());
+  CHECK(std::vector(order.begin(), order.begin() + 6) == shown);
+  CHECK(std::vector(order.end() - 5, order.end()) ==
+        std::vector(shown.begin(), shown.end() - 1));  // 400 ms broke down
+}
+
+TEST_CASE("an interrupted study goes on with the repetitions that are missing") {
+  const Study study(replaced(study_text, "repeats: 2", "repeats: 1"));
+  study::run_study(study.request());
+  std::ofstream(study.folder / "study.yaml") << study_text;  // two
+  study::run_study(study.request());
+  CHECK(study.runs_of("first_100_ms") == 2);
+  CHECK(point(study.result().at("points"), "first_100_ms").at("loop_seconds").at("runs") == 2);
+}
+
+TEST_CASE("a point whose windows did not converge is shown with their share and never as good") {
+  const Study study(
+      replaced(study_text, "{key: model.order, value: 1}", "{key: model.not_converged, value: 74}"));
+  study::run_study(study.request());
+  const json result = study.result();
+  const json& first = point(result.at("points"), "first_100_ms");
+  CHECK(first.at("outcome") == "warnings");
+  CHECK(first.at("detail") == "37 % of windows not converged");  // 74 of 400/2
+  CHECK(point(result.at("points"), "second_100_ms").at("outcome") == "ok");
+}
+
+TEST_CASE(
+    "a point whose balance of energy is off by more than the study allows is inaccurate, and so is a "
+    "reference") {
+  const Study study(replaced(study_text, "largest_energy_error: 1", "largest_energy_error: 0.15"));
+  study::run_study(study.request());
+  const json result = study.result();  // the fake's error is its step in s
+  CHECK(point(result.at("points"), "first_100_ms").at("outcome") == "ok");
+  const json& first = point(result.at("points"), "first_200_ms");
+  CHECK(first.at("outcome") == "inaccurate");
+  CHECK(first.at("detail") == "energy off by 20 %");
+  const Study doubtful(replaced(study_text, "largest_energy_error: 1", "largest_energy_error: 0.03"));
+  study::run_study(doubtful.request());
+  CHECK(quantity(doubtful.result(), "peak").at("trusted") == false);
+  CHECK_THAT(quantity(doubtful.result(), "peak").at("why").get<std::string>(),
+             Catch::Contains("at 40 ms is itself in doubt"));
+}
+
+TEST_CASE(
+    "a reference whose order is not the expected one is told as not trusted, with a range that holds the "
+    "truth") {
+  const Study study(
+      replaced(study_text, "[40 ms, 20 ms, 10 ms], order: 2", "[40 ms, 20 ms, 10 ms], order: 1"));
+  study::run_study(study.request());
+  const json result = study.result();
+  const json& peak = quantity(result, "peak");
+  CHECK(peak.at("trusted") == false);
+  CHECK(peak.at("observed_order").get<double>() == Approx(2).epsilon(1e-6));
+  CHECK(peak.at("why") == "its three values show order 2, not 1");
+  CHECK(peak.at("reference_low").get<double>() < 3);
+  CHECK(peak.at("reference_high").get<double>() > 3);
+}
+
+TEST_CASE("every error has a bar: as wide as the reference is known, and none where the exact value is") {
+  const Study study;
+  study::run_study(study.request());
+  const json result = study.result();
+  const json& peak = point(quantity(result, "peak").at("points"), "second_100_ms");
+  CHECK(peak.at("error_high").get<double>() - peak.at("error").get<double>() ==
+        Approx(1e-4 / 3).epsilon(1e-3));
+  const json& energy = point(quantity(result, "energy").at("points"), "second_100_ms");
+  CHECK(energy.at("error_high") == energy.at("error_low"));
+}
+
+TEST_CASE("the load of others does not count what the study itself computes") {
+  study::OtherLoad load;
+  const double before = load.now();
+  const auto until = std::chrono::steady_clock::now() + std::chrono::milliseconds(300);
+  volatile double sink = 0;
+  while (std::chrono::steady_clock::now() < until) sink = sink + 1;
+  CHECK(load.now() < before + 0.7);  // a whole core more, if it did
 }
 
 }  // namespace talus
