@@ -143,15 +143,19 @@ TEST_CASE("A rock in the floor is named as one, with the depth of its deepest sp
 
 TEST_CASE("Of a stream whose box meets the floor, the spheres inside are counted once each") {
   // A column of four cells of edge 1, a sphere of radius 0.5 in each: two under the floor.
-  const std::string stream =
-      "streams: {s: {material: rock, count: 4, radius: [0.5], low: [0, 0, -2], high: [1, 1, 2]}}";
-  for (const std::string& partner : {floor_plane, floor_faces})
-    CHECK_THAT(said({stream, partner}), Contains("particles.streams.s: "));
+  const auto stream = [](const std::string& low, const std::string& high) {
+    return "streams: {s: {material: rock, count: 4, radius: [0.5], low: [0, 0, " + low + "], high: [1, 1, " +
+           high + "]}}";
+  };
   CHECK_THAT(
-      said({stream, floor_plane}),
+      said({stream("-2", "2"), floor_plane}),
       StartsWith("particles.streams.s: 2 of its spheres start inside of plane `floor`, the deepest by 2 m"));
-  CHECK(said({"streams: {s: {material: rock, count: 4, radius: [0.5], low: [0, 0, 0], high: [1, 1, 4]}}",
-              floor_plane}) == "");
+  // Centres at -1.25, -0.25, 0.75 and 1.75 m: one is in the faces, and it touches both of them on their diagonal.
+  CHECK_THAT(
+      said({stream("-1.75", "2.25"), floor_faces}),
+      StartsWith(
+          "particles.streams.s: 1 of its spheres start inside of a face of `floor`, the deepest by 250 mm"));
+  CHECK(said({stream("0", "4"), floor_plane}) == "");
 }
 
 TEST_CASE("A boulder in the net of the structure is named, too") {
