@@ -26,7 +26,7 @@ struct Finding {
   double allowed = 0;  ///< m
   Triple<double> centre;
   bool below = false;  ///< of the deepest: below faces, not merely through one
-  bool in_stream = false;
+  bool in_stream = false, in_rock = false;
 };
 
 class StartCheck {
@@ -72,6 +72,7 @@ class StartCheck {
     finding.centre = model_.spheres[k].position;
     finding.below = below;
     finding.in_stream = names_.in_stream(k);
+    finding.in_rock = model_.spheres[k].rock >= 0;
   }
 
   template <class Visit>
@@ -174,7 +175,8 @@ class StartCheck {
   static std::string sentence(const std::string& partner, const Finding& f) {
     const std::string depth = core::readable(f.depth, "m");
     const std::string where =
-        fmt::format("with the centre at ({:.6g}, {:.6g}, {:.6g}) m", f.centre.x, f.centre.y, f.centre.z);
+        fmt::format("{} at ({:.6g}, {:.6g}, {:.6g}) m", f.in_rock ? "its sphere" : "with the centre",
+                    f.centre.x, f.centre.y, f.centre.z);
     const std::string who = f.in_stream ? fmt::format("{} of its spheres start", f.spheres) : "starts";
     const std::string deepest = f.in_stream ? "the deepest by " : "by ";
     if (f.below)
