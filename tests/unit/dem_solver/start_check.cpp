@@ -22,7 +22,7 @@ const std::string wire =
     "boundaries: {line: {material: wall, wire_radius: 5 mm, nodes: {positions: [[-3, 0, 0], [3, 0, 0]], "
     "segments: "
     "[0, 1]}}}";
-const std::string down = "gravity: [0, 0, -9.81]";
+const std::string falling = "gravity: [0, 0, -9.81]";
 
 std::string ball(const std::string& at, const std::string& more = "") {
   return "spheres: {ball: {material: rock, radius: 0.5, at: [" + at + "]" + more + "}}";
@@ -72,7 +72,7 @@ TEST_CASE("A sphere in or under a plane is named with the plane and its depth") 
       StartsWith("particles.spheres.ball: starts inside of plane `floor`, by 200 mm, with the centre at (0, "
                  "0, 0.3) m; more than 10 mm"));
   CHECK_THAT(said({ball("0, 0, -2"), floor_plane}), Contains("inside of plane `floor`, by 2.5 m"));
-  CHECK_THAT(said({ball("0, 0, 0.3"), floor_plane, down}), Contains("inside of plane `floor`, by 200 mm"));
+  CHECK_THAT(said({ball("0, 0, 0.3"), floor_plane, falling}), Contains("inside of plane `floor`, by 200 mm"));
   CHECK_THAT(said({ball("0, 0, 9"), floor_plane,
                    "boundaries: {wall: {material: wall, nodes: {positions: [[0.3, -9, 0], [0.3, 9, 0], [0.3, "
                    "0, 20]], "
@@ -103,9 +103,9 @@ TEST_CASE("A sphere below terrain is named although it touches nothing") {
   CHECK(said({ball("10, 10, 102"), slope(folder)}) == "");
   CHECK(said({ball("30, 10, 99"), slope(folder)}) == "");  // beside the grid
 
-  CHECK_THAT(said({ball("0, 0, -2"), floor_faces, down}),
+  CHECK_THAT(said({ball("0, 0, -2"), floor_faces, falling}),
              Contains("starts below a face of `floor`, by 2.5 m"));
-  CHECK_THAT(said({ball("0, 0, -0.3"), floor_faces, down}),
+  CHECK_THAT(said({ball("0, 0, -0.3"), floor_faces, falling}),
              Contains("starts below a face of `floor`, by 800 mm"));
   CHECK_THAT(said({ball("0, 0, 2"), floor_faces, "gravity: [0, 0, 9.81]"}),
              Contains("below a face of `floor`"));
@@ -113,16 +113,17 @@ TEST_CASE("A sphere below terrain is named although it touches nothing") {
 
 TEST_CASE("What may be on its way, or comes to rest somewhere, is not taken for lost below a roof") {
   const std::string ground = "planes: {ground: {material: wall, point: [0, 0, -9], normal: [0, 0, 1]}}";
-  CHECK(said({ball("0, 0, -2"), floor_faces}) == "");                                 // no gravity
-  CHECK(said({ball("0, 0, -2"), floor_faces, down, ground}) == "");                   // falls on the ground
-  CHECK(said({ball("0, 0, -2", ", velocity: [0, 0, 5]"), floor_faces, down}) == "");  // flies up against it
-  CHECK(said({ball("5, 0, -2"), floor_faces, down}) == "");                           // beside it
-  CHECK(said({ball("0, 0, -2"), down,
+  CHECK(said({ball("0, 0, -2"), floor_faces}) == "");                   // no gravity
+  CHECK(said({ball("0, 0, -2"), floor_faces, falling, ground}) == "");  // falls on the ground
+  CHECK(said({ball("0, 0, -2", ", velocity: [0, 0, 5]"), floor_faces, falling}) ==
+        "");                                                    // flies up against it
+  CHECK(said({ball("5, 0, -2"), floor_faces, falling}) == "");  // beside it
+  CHECK(said({ball("0, 0, -2"), falling,
               "boundaries: {floor: {material: wall, velocity: [0, 0, -9], nodes: {positions: [[-3, -3, 0], "
               "[3, -3, 0], "
               "[0, 3, 0]], triangles: [0, 1, 2]}}}"}) == "");  // it comes down on the ball
   CHECK(
-      said({ball("0, 0, 0"), down,
+      said({ball("0, 0, 0"), falling,
             "boundaries: {fence: {material: wall, nodes: {positions: [[-1, -9, -9], [-1, 9, -9], [3, 0, 9]], "
             "triangles: [0, 1, 2]}}}"}) == "");  // a fence that leans over it
 }
@@ -166,7 +167,7 @@ TEST_CASE("A boulder in the net of the structure is named, too") {
   CHECK_THAT(said({ball("0, 0, 0.4")}, net),
              StartsWith("particles.spheres.ball: starts inside of a wire of `net`, by 100 mm"));
   CHECK(said({ball("0, 0, 0.501")}, net) == "");
-  CHECK_THAT(said({ball("0, 0, 0.4"), down}, net), Contains("inside of a wire of `net`, by 100 mm"));
+  CHECK_THAT(said({ball("0, 0, 0.4"), falling}, net), Contains("inside of a wire of `net`, by 100 mm"));
 }
 
 TEST_CASE("Every body and partner is told at once") {
@@ -185,11 +186,11 @@ TEST_CASE("A start at rest is allowed up to 2 % of the radius, or to where the c
              Contains("by 10.1 mm") && Contains("more than 10 mm"));
   // 1309 kg at 9.81 m/s^2 on 4e5 N/m: sinks by 32.1 mm.
   const std::string soft = "linear: {stiffness: 4e5, restitution: 1}";
-  CHECK(said({ball("0, 0, 0.469"), floor_plane, down}, {}, soft) == "");
-  CHECK_THAT(said({ball("0, 0, 0.467"), floor_plane, down}, {}, soft), Contains("more than 32.1 mm"));
+  CHECK(said({ball("0, 0, 0.469"), floor_plane, falling}, {}, soft) == "");
+  CHECK_THAT(said({ball("0, 0, 0.467"), floor_plane, falling}, {}, soft), Contains("more than 32.1 mm"));
   CHECK_THAT(said({ball("0, 0, 0.469"), floor_plane}, {}, soft), Contains("more than 10 mm"));
   // Nothing is so soft that it may start more than a tenth of its radius inside.
-  CHECK_THAT(said({ball("0, 0, 0.44"), floor_plane, down}, {}, "linear: {stiffness: 1e4, restitution: 1}"),
+  CHECK_THAT(said({ball("0, 0, 0.44"), floor_plane, falling}, {}, "linear: {stiffness: 1e4, restitution: 1}"),
              Contains("more than 50 mm"));
 }
 
