@@ -59,14 +59,7 @@ std::vector<PartFacts> parts_of(const fs::path& file) {
 }  // namespace
 
 double ResultFacts::impact() const {
-  const auto& kinds = summary.at("energy").at("kinds");
-  std::vector<double> kinetic(energy.rows(), 0.0);
-  for (std::size_t c = 0; c < energy.names.size(); ++c) {
-    const std::string& name = energy.names[c];
-    if (name.find("kinetic") == std::string::npos || kinds.value(name, "") != "stored") continue;
-    for (std::size_t i = 0; i < kinetic.size(); ++i) kinetic[i] += energy.columns[c][i];
-  }
-  return kinetic.empty() ? 0 : *std::ranges::max_element(kinetic);
+  return summary.value("/energy/impact_J"_json_pointer, 0.0);
 }
 
 std::optional<double> ResultFacts::largest(const std::string& line) const {

@@ -35,7 +35,7 @@ struct ResultFacts {
   std::vector<PartFacts> parts;      ///< empty where no frames were written
   std::vector<EffectFacts> effects;  ///< of all sides
 
-  /// J; the largest kinetic energy of a row, of both sides together.
+  /// J; the energy that the run is about, as its ledger says (core/output/ledger.hpp). 0: nothing moved, or nobody tells.
   double impact() const;
   /// J; the largest magnitude of a ledger line. Nothing where there is no such line: then it is unknown, not zero.
   std::optional<double> largest(const std::string& line) const;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,12 @@ struct Outcome {
 
   bool bad() const { return verdict == Verdict::different || verdict == Verdict::failed; }
 };
+
+/// What of a summary is compared as it is, by its place: {"/rows": 21, ...}. Versions of programs are left out.
+/// @throws core::ConfigError where the summary lacks what every summary has
+nlohmann::json counts_of(const nlohmann::json& summary);
+/// The first difference of two such, in words; a place that is not compared is one. Empty where there is none.
+std::string first_other_count(const nlohmann::json& baseline, const nlohmann::json& found);
 
 /// Compares the tables and counts of a finished run with the baseline.
 Outcome judge(const Regression& regression, const ScheduledRun& run, const FinishedRun& finished);

@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "core/program/stop.hpp"
+#include "coupler/launch/find_solver.hpp"
 #include "coupler/regress/outcome.hpp"
 #include "coupler/regress/report.hpp"
 
@@ -17,7 +18,10 @@ std::vector<ScheduledRun> schedule(const std::vector<Regression>& regressions,
   std::filesystem::create_directories(out);
   std::vector<ScheduledRun> runs;
   for (const auto& regression : regressions) {
-    runs.push_back({regression.scene, out / regression.name, out / (regression.name + ".console.txt")});
+    runs.push_back({.scene = regression.scene,
+                    .folder = out / regression.name,
+                    .console = out / (regression.name + ".console.txt"),
+                    .time_limit = regression.tolerances.time_limit});
   }
   return runs;
 }
@@ -32,7 +36,8 @@ core::ExitCode regress(const RegressRequest& request) {
   core::watch_stop_signals("with the runs in progress");
   const auto regressions = find_regressions(request.folder);
   const auto runs = schedule(regressions, request.out);
-  const auto finished = run_side_by_side(runs, request.jobs > 0 ? request.jobs : cores());
+  const auto finished =
+      run_side_by_side(runs, request.jobs > 0 ? request.jobs : cores(), launch::program_folder() / "talus");
   if (!finished) return core::ExitCode::interrupted;
   std::vector<Outcome> outcomes;
   for (std::size_t i = 0; i < runs.size(); ++i) {

@@ -19,6 +19,10 @@ void describe(core::Fields& fields, RegressionScene& regression) {
                        .help = "tolerance, as a part of the largest magnitude of the column or its vector"});
   fields.with_default("absolute", regression.absolute,
                       {.range = core::not_negative, .help = "added to it, in the column's SI unit"});
+  fields.with_default("time_limit", regression.time_limit,
+                      {.unit = "s",
+                       .range = core::positive,
+                       .help = "wall time after which the run is ended and counts as failed"});
   fields.list("columns", regression.columns, "other tolerances; the first entry that fits a column counts");
 }
 

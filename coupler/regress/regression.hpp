@@ -22,6 +22,7 @@ struct RegressionScene {
   double relative = 1e-6;   ///< of the largest magnitude of the column, or of the vector it is a component of
   double absolute = 1e-12;  ///< added to that, in the column's SI unit
   std::vector<ColumnScene> columns;
+  double time_limit = 600;  ///< s of wall time; a run that takes longer is ended and counts as failed
 };
 void describe(core::Fields& fields, RegressionScene& regression);
 

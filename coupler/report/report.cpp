@@ -5,6 +5,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <span>
 
 #include "core/errors.hpp"
 #include "core/output/field_reader.hpp"
@@ -38,30 +39,82 @@ json rounded(const std::vector<double>& values) {
   return list;
 }
 
-/// The rows that are drawn: evenly spaced, and the last.
-std::vector<std::size_t> drawn_rows(std::size_t rows) {
-  std::vector<std::size_t> drawn;
-  const std::size_t stride = rows / most_points + 1;
-  for (std::size_t i = 0; i < rows; i += stride) drawn.push_back(i);
-  if (rows > 0 && drawn.back() != rows - 1) drawn.push_back(rows - 1);
-  return drawn;
+/// The rows that are drawn, so that no extreme is lost: of each of so many stretches the rows of the least and the
+/// largest value of every column, and the first and the last row of all.
+std::vector<std::size_t> drawn_rows(std::span<const std::vector<double>> columns, std::size_t stretches) {
+  const std::size_t rows = columns.front().size();
+  std::set<std::size_t> drawn;
+  if (rows > 0) drawn = {0, rows - 1};
+  const std::size_t length = rows / stretches + 1;
+  for (std::size_t begin = 0; begin < rows; begin += length) {
+    const auto first = static_cast<std::ptrdiff_t>(begin),
+               last = static_cast<std::ptrdiff_t>(std::min(begin + length, rows));
+    for (const auto& column : columns) {
+      const auto [least, most] = std::minmax_element(column.begin() + first, column.begin() + last);
+      drawn.insert({static_cast<std::size_t>(least - column.begin()),
+                    static_cast<std::size_t>(most - column.begin())});
+    }
+  }
+  return {drawn.begin(), drawn.end()};
 }
 
+json picked_rows(const std::vector<double>& column, const std::vector<std::size_t>& rows) {
+  std::vector<double> drawn;
+  for (const auto row : rows) drawn.push_back(column[row]);
+  return rounded(drawn);
+}
+
+/// Every curve with rows of its own.
 json curves(const fs::path& file) {
   const core::Table table = core::read_table(file);
-  const auto rows = drawn_rows(table.rows());
-  json result{{"names", table.names}, {"columns", json::array()}};
-  for (const auto& column : table.columns) {
-    std::vector<double> drawn;
-    for (const auto row : rows) drawn.push_back(column[row]);
-    result["columns"].push_back(rounded(drawn));
+  json result{{"names", json::array()}, {"curves", json::array()}};
+  for (std::size_t i = 1; i < table.columns.size(); ++i) {
+    const auto rows = drawn_rows(std::span(table.columns).subspan(i, 1), most_points / 2);
+    result["names"].push_back(table.names[i]);
+    result["curves"].push_back({{"times", picked_rows(table.columns.front(), rows)},
+                                {"values", picked_rows(table.columns[i], rows)}});
   }
   return result;
 }
 
-std::vector<std::int64_t> drawn_frames(std::int64_t frames) {
+/// Curves that are drawn on top of each other have their rows in common, the extremes of all among them.
+json stacked(const fs::path& file) {
+  const core::Table table = core::read_table(file);
+  const auto rows = drawn_rows(table.columns, most_points / 8);
+  json result{{"names", table.names}, {"columns", json::array()}};
+  for (const auto& column : table.columns) result["columns"].push_back(picked_rows(column, rows));
+  return result;
+}
+
+/// m; the largest displacement of any node.
+double largest_displacement(const core::FieldReader& fields, std::int64_t frame) {
+  double largest = 0;
+  for (const auto& group : fields.groups()) {
+    if (std::ranges::find(group.fields, "displacement", &core::FieldDescription::name) == group.fields.end())
+      continue;
+    const auto values = fields.read(group, "displacement", frame);
+    for (std::size_t i = 0; i + 2 < values.size(); i += 3)
+      largest = std::max(largest, std::hypot(values[i], values[i + 1], values[i + 2]));
+  }
+  return largest;
+}
+
+/// The frame in which the structure is displaced most; the first where nothing is.
+std::int64_t peak_frame(const core::FieldReader& fields) {
+  std::int64_t peak = 0;
+  double most = 0;
+  for (std::int64_t frame = 0; frame < fields.frames(); ++frame)
+    if (const double displacement = largest_displacement(fields, frame); displacement > most)
+      most = displacement, peak = frame;
+  return peak;
+}
+
+/// Evenly spaced, the first and the last among them, and the peak.
+std::vector<std::int64_t> drawn_frames(const core::FieldReader& fields, std::int64_t peak) {
   std::set<std::int64_t> drawn;
-  for (std::int64_t i = 0; i < instants && frames > 0; ++i) drawn.insert(i * (frames - 1) / (instants - 1));
+  if (fields.frames() > 0) drawn.insert(peak);
+  for (std::int64_t i = 0; i < instants && fields.frames() > 0; ++i)
+    drawn.insert(i * (fields.frames() - 1) / (instants - 1));
   return {drawn.begin(), drawn.end()};
 }
 
@@ -122,8 +175,10 @@ json views(const fs::path& file) {
   json result{{"times", json::array()}, {"groups", json::array()}};
   if (!fs::exists(file)) return result;
   const core::FieldReader fields(file);
-  const auto frames = drawn_frames(fields.frames());
+  const std::int64_t peak = peak_frame(fields);
+  const auto frames = drawn_frames(fields, peak);
   if (frames.empty()) return result;
+  result["peak_time"] = fields.times()[static_cast<std::size_t>(peak)];
   for (const auto frame : frames) result["times"].push_back(fields.times()[static_cast<std::size_t>(frame)]);
   for (const auto& group : fields.groups()) result["groups"].push_back(drawn_group(fields, group, frames));
   return result;
@@ -137,7 +192,7 @@ json report_data(const fs::path& result) {
     throw core::ConfigError("'" + result.string() + "' holds no result: there is no summary.json");
   return {{"summary", json::parse(summary)},
           {"probes", curves(result / "probes.csv")},
-          {"energy", curves(result / "energy.csv")},
+          {"energy", stacked(result / "energy.csv")},
           {"views", views(result / "fields.h5")}};
 }
 

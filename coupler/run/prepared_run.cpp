@@ -67,6 +67,14 @@ void refuse_growth_without_steps(Session& session) {
                       peer->declaration().program));
 }
 
+/// Of a side that nobody is coupled with, its own step serves as the window.
+double step_of_the_only_side(Session& session) {
+  const Declaration& only = session.peers().front()->declaration();
+  if (only.step > 0) return only.step;
+  throw core::ConfigError(fmt::format(
+      "time.step: is missing, and so is 'coupling.window'; {} has no step of its own", only.program));
+}
+
 }  // namespace
 
 PreparedRun prepare(const PrepareOptions& options) {
@@ -102,6 +110,7 @@ PreparedRun prepare(const PrepareOptions& options) {
   std::optional<InterfacePlan> plan;
   if (run.scene.interface) plan = plan_of(*run.scene.interface);
   run.interface = introduce(*run.session, plan, std::move(complaints));
+  if (run.window_length() <= 0) run.scene.coupling.window = step_of_the_only_side(*run.session);
   if (run.scene.coupling.longest_window) refuse_growth_without_steps(*run.session);
   const WindowLengths windows{
       .regular = run.window_length(),

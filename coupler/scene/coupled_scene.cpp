@@ -41,9 +41,13 @@ using Complain = std::function<void(const char* key, const std::string& message)
 
 /// What has to hold between keys of different sections.
 void check_windows(const CoupledScene& scene, const Complain& complain) {
-  if (scene.window() <= 0) return complain("time.step", "is missing, and so is 'coupling.window'");
   if (scene.coupling.longest_window && !scene.interface)
     complain("coupling.longest_window", "needs an interface, without which nothing can touch");
+  if (scene.window() <= 0) {
+    const bool needed = scene.structure && scene.particles;
+    if (needed) complain("time.step", "is missing, and so is 'coupling.window'");
+    return;
+  }
   if (scene.coupling.longest_window && scene.longest_window() < 2)
     complain("coupling.longest_window",
              fmt::format("must be at least two windows of {}", core::readable(scene.window(), "s")));

@@ -30,7 +30,8 @@ struct CoupledScene {
   /// s; the regular one. As long as the scene says where that divides the run, else shorter, so that the run
   /// ends with a window (core::equal_steps).
   double window() const;
-  double named_window() const { return coupling.window.value_or(time.step.value_or(0)); }  ///< s; 0: none
+  /// s; 0: none, as a scene of a single side may: that side's step then is the window
+  double named_window() const { return coupling.window.value_or(time.step.value_or(0)); }
   /// In regular windows; 1 where windows do not grow.
   std::int64_t longest_window() const;
   /// How often a window that does not converge may be cut in half.

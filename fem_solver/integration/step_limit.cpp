@@ -9,6 +9,7 @@
 #include <random>
 
 #include "core/errors.hpp"
+#include "core/units/units.hpp"
 
 namespace talus::fem {
 namespace {
@@ -37,49 +38,81 @@ Vector start_vector(const Vector& scale) {
   return q;
 }
 
-/// Largest eigenvalue of the tridiagonal matrix, plus the residual of its vector. Scaled to 1, because the
-/// eigenvalue iteration compares small entries with absolute thresholds.
-double upper_eigenvalue(const std::vector<double>& diagonal, const std::vector<double>& beside,
-                        double next_beside) {
-  const auto n = static_cast<Eigen::Index>(diagonal.size());
-  const double scale = Vector::Map(diagonal.data(), n).cwiseAbs().maxCoeff();
-  if (scale == 0) return 0;
+/// The tridiagonal matrix that the iteration makes, and what is left beside its last entry.
+struct Tridiagonal {
+  std::vector<double> diagonal, beside;
+  double next_beside = 0;
+};
+
+/// The largest eigenvalue and its vector.
+struct Upper {
+  double value = 0;
+  Vector vector = {};
+};
+
+/// Scaled to 1, because the eigenvalue iteration compares small entries with absolute thresholds.
+Upper upper_of(const Tridiagonal& made) {
+  const auto n = static_cast<Eigen::Index>(made.diagonal.size());
+  const double scale = Vector::Map(made.diagonal.data(), n).cwiseAbs().maxCoeff();
+  if (scale == 0) return {.value = 0, .vector = Vector::Zero(n)};
   Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver;
-  solver.computeFromTridiagonal(Vector::Map(diagonal.data(), n) / scale,
-                                Vector::Map(beside.data(), n - 1) / scale);
+  solver.computeFromTridiagonal(Vector::Map(made.diagonal.data(), n) / scale,
+                                Vector::Map(made.beside.data(), n - 1) / scale);
   if (solver.info() != Eigen::Success)
     throw core::NumericalError({.what = "the highest frequency of the structure could not be computed",
                                 .entity = "number of Lanczos vectors",
                                 .value = static_cast<double>(n)});
-  return scale * solver.eigenvalues()[n - 1] + std::abs(next_beside * solver.eigenvectors()(n - 1, n - 1));
+  return {.value = scale * solver.eigenvalues()[n - 1], .vector = solver.eigenvectors().col(n - 1)};
+}
+
+/// Lanczos iteration from the fixed start vector; visit(q) sees every vector of the basis.
+template <class Visit>
+Tridiagonal iterate(Assembly& assembly, std::span<const double> displacement, const Vector& scale,
+                    Visit&& visit) {
+  constexpr std::size_t most_products = 80;
+  Tridiagonal made;
+  Vector q = start_vector(scale), before = Vector::Zero(q.size()), x(q.size()), r(q.size());
+  if (q.norm() == 0) return made;
+  q.normalize();
+  while (true) {
+    visit(q);
+    x = scale.cwiseProduct(q);
+    assembly.stiffest_product(displacement, {x.data(), static_cast<std::size_t>(x.size())},
+                              {r.data(), static_cast<std::size_t>(r.size())});
+    r = r.cwiseProduct(scale) - made.next_beside * before;
+    made.diagonal.push_back(r.dot(q));
+    r -= made.diagonal.back() * q;
+    made.next_beside = r.norm();
+    const double largest =
+        std::abs(*std::ranges::max_element(made.diagonal, {}, [](double d) { return std::abs(d); }));
+    if (made.diagonal.size() == most_products || made.next_beside <= 1e-10 * largest) return made;
+    made.beside.push_back(made.next_beside);
+    before = q;
+    q = r / made.next_beside;
+  }
+}
+
+/// The displacement of the fastest mode, of any size. The basis is made a second time, not kept.
+Vector fastest_shape(Assembly& assembly, std::span<const double> displacement) {
+  const Vector scale = free_inverse_root_mass(assembly.model());
+  const Tridiagonal made = iterate(assembly, displacement, scale, [](const Vector&) {});
+  Vector shape = Vector::Zero(scale.size());
+  if (made.diagonal.empty()) return shape;
+  const Upper upper = upper_of(made);
+  Eigen::Index k = 0;
+  iterate(assembly, displacement, scale, [&](const Vector& q) { shape += upper.vector[k++] * q; });
+  return scale.cwiseProduct(shape);
 }
 
 }  // namespace
 
 double largest_frequency(Assembly& assembly, std::span<const double> displacement) {
-  constexpr std::size_t most_products = 80;
-  const Vector scale = free_inverse_root_mass(assembly.model());
-  Vector q = start_vector(scale), before = Vector::Zero(q.size()), x(q.size()), r(q.size());
-  if (q.norm() == 0) return 0;
-  q.normalize();
-  std::vector<double> diagonal, beside;
-  double beta = 0;
-  while (true) {
-    x = scale.cwiseProduct(q);
-    assembly.stiffest_product(displacement, {x.data(), static_cast<std::size_t>(x.size())},
-                              {r.data(), static_cast<std::size_t>(r.size())});
-    r = r.cwiseProduct(scale) - beta * before;
-    diagonal.push_back(r.dot(q));
-    r -= diagonal.back() * q;
-    beta = r.norm();
-    const double largest =
-        std::abs(*std::ranges::max_element(diagonal, {}, [](double d) { return std::abs(d); }));
-    if (diagonal.size() == most_products || beta <= 1e-10 * largest)
-      return std::sqrt(std::max(0.0, upper_eigenvalue(diagonal, beside, beta)));
-    beside.push_back(beta);
-    before = q;
-    q = r / beta;
-  }
+  const Tridiagonal made =
+      iterate(assembly, displacement, free_inverse_root_mass(assembly.model()), [](const Vector&) {});
+  if (made.diagonal.empty()) return 0;
+  const Upper upper = upper_of(made);
+  const double residual = std::abs(made.next_beside * upper.vector[upper.vector.size() - 1]);
+  return std::sqrt(std::max(0.0, upper.value + residual));
 }
 
 double stable_step(double frequency, const Damping& damping) {
@@ -107,33 +140,91 @@ template <class Law>
 constexpr const char* kind_of<MembraneBatch<Law>> = "membrane";
 template <>
 constexpr const char* kind_of<BrakeBatch> = "brakes";
+template <>
+constexpr const char* kind_of<ElasticPlasticBatch> = "ropes that yield";
 
 std::string formula(double frequency, const Damping& damping) {
   return fmt::format("(2/w)(sqrt(1 + xi^2) - xi) with w = {:.6g} 1/s, xi = {:.3g}", frequency,
                      0.5 * damping.stiffness * frequency);
 }
 
+/// A part that can hang slack, and does.
+template <class Batch>
+constexpr bool may_be_slack =
+    std::is_same_v<Batch, CableBatch> || std::is_same_v<Batch, SlidingCableBatch> ||
+    std::is_same_v<Batch, FrictionalCableBatch> || std::is_same_v<Batch, ElasticPlasticBatch>;
+template <class Batch>
+bool is_slack(const Batch& batch, std::span<const double> displacement) {
+  if constexpr (!may_be_slack<Batch>)
+    return false;
+  else if constexpr (requires { batch.axial_force(displacement, 0); })
+    return batch.size() > 0 && batch.axial_force(displacement, 0) <= 0;
+  else if constexpr (requires { batch.tension(displacement); })
+    return batch.tension(displacement) <= 0;
+  else
+    return batch.tension(displacement, 0) <= 0;
+}
+
+/// What snaps taut keeps the balance of energy to about half a percent at this share of the limit (docs/step_limits.md).
+constexpr double share_for_snapping = 0.25;
+
 /// The bounds of one structure at one state.
 class BoundSearch {
  public:
   BoundSearch(Assembly& assembly, std::span<const double> displacement)
-      : model_(assembly.model()),
+      : assembly_(assembly),
+        model_(assembly.model()),
         displacement_(displacement),
         whole_(largest_frequency(assembly, displacement)) {}
 
   std::vector<StepBound> run() {
     if (whole_ == 0) return {};
+    shape_ = fastest_shape(assembly_, displacement_);
     for (const auto& part : model_.parts)
-      std::visit([&](const auto& batch) { add_part(part.name, batch); }, part.elements);
+      std::visit(
+          [&](const auto& batch) {
+            weigh(part.name, kind_of<std::decay_t<decltype(batch)>>, batch);
+            slack_ = slack_ || is_slack(batch, displacement_);
+            add_part(part.name, batch);
+          },
+          part.elements);
     std::ranges::stable_sort(bounds_, {}, &StepBound::seconds);
+    const double seconds = stable_step(whole_, model_.damping);
     bounds_.insert(bounds_.begin(),
-                   {"highest frequency of the structure", stable_step(whole_, model_.damping),
+                   {"highest frequency of the structure", seconds,
                     formula(whole_, model_.damping) +
-                        ", from the stiffness of the taut structure with its geometric part" + tightest_});
+                        ", from the stiffness of the taut structure with its geometric part" + seat_ +
+                        snapping(seconds)});
     return std::move(bounds_);
   }
 
  private:
+  /// Where the fastest mode lives: the part that takes most of its energy, and the node where most of that is.
+  void weigh(const std::string& name, const char* kind, ElementBatch elements) {
+    Model alone = only(std::move(elements));
+    Assembly assembly(alone);
+    Vector product(shape_.size());
+    assembly.stiffest_product(displacement_, {shape_.data(), static_cast<std::size_t>(shape_.size())},
+                              {product.data(), static_cast<std::size_t>(product.size())});
+    const double energy = shape_.dot(product);
+    if (energy <= seat_energy_) return;
+    seat_energy_ = energy;
+    Eigen::Index node = 0;
+    double most = -1;
+    for (Eigen::Index i = 0; i < shape_.size(); i += 3)
+      if (const double here = shape_.segment<3>(i).dot(product.segment<3>(i)); here > most)
+        most = here, node = i / 3;
+    seat_ = fmt::format("; set by the {} of {}, most of all at {}", kind, name,
+                        fem::node_name(model_, static_cast<Index>(node)));
+  }
+  /// For the reader of the first bound.
+  std::string snapping(double seconds) const {
+    if (!slack_) return "";
+    return fmt::format(
+        "; ropes that hang slack will snap taut: for their balance of energy take a quarter of it, {}",
+        core::readable(share_for_snapping * seconds, "s"));
+  }
+
   template <class Batch>
   void add_part(const std::string& name, const Batch& batch) {
     if (model_.parts.size() > 1)
@@ -155,11 +246,15 @@ class BoundSearch {
 
   /// Of the structure's masses on these elements alone; never above the whole structure's, but for round-off.
   double frequency_of(ElementBatch elements) const {
+    const Model alone = only(std::move(elements));
+    Assembly assembly(alone);
+    return std::min(whole_, largest_frequency(assembly, displacement_));
+  }
+  Model only(ElementBatch elements) const {
     Model alone = model_;
     alone.parts.clear();
     alone.parts.push_back({"alone", std::move(elements), {}});
-    Assembly assembly(alone);
-    return std::min(whole_, largest_frequency(assembly, displacement_));
+    return alone;
   }
   void add(const std::string& name, double frequency, const std::string& more) {
     if (frequency > 0)
@@ -178,21 +273,18 @@ class BoundSearch {
       if (passage < seconds) seconds = passage, shortest = e;
     }
     if (shortest < 0) return "";
-    const std::string element =
-        fmt::format("; its shortest element is {} of {}, L = {:.4g} m, which a wave passes in {:.4g} s",
-                    shortest, name, batch.reference_length(shortest), seconds);
-    if (seconds < shortest_passage_) {
-      shortest_passage_ = seconds;
-      tightest_ = element;
-    }
-    return element;
+    return fmt::format("; its shortest element is {} of {}, L = {:.4g} m, which a wave passes in {:.4g} s",
+                       shortest, name, batch.reference_length(shortest), seconds);
   }
 
+  Assembly& assembly_;
   const Model& model_;
   std::span<const double> displacement_;
   double whole_;
-  double shortest_passage_ = std::numeric_limits<double>::infinity();
-  std::string tightest_;
+  Vector shape_;            ///< of the fastest mode
+  double seat_energy_ = 0;  ///< of the part that takes most of its energy, in the mode's units
+  std::string seat_;
+  bool slack_ = false;  ///< some rope hangs slack
   std::vector<StepBound> bounds_;
 };
 

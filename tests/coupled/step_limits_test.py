@@ -4,11 +4,12 @@ insists, makes energy; an accuracy limit keeps what it promises below and warns 
 Arguments: the folder of the repository, the folder of the build."""
 import math
 import pathlib
+import subprocess
 import sys
 import tempfile
 import unittest
 
-from scene_run import Run
+from scene_run import BUILD, ROOT, Run
 
 WORK = tempfile.TemporaryDirectory()
 tearDownModule = WORK.cleanup
@@ -225,6 +226,35 @@ coupling: {{serial_explicit: {{}}}}
         self.assertIn("contact spring on boundary nodes", refused.stderr)
         thrown = self.scene.run(1.1 * limit, 500, "particles: {unstable_step: allowed}")
         self.assertEqual(thrown.column("stone.contact_force_z_N")[1:].min(), 0)
+
+
+def check(scene: pathlib.Path) -> subprocess.CompletedProcess:
+    return subprocess.run([BUILD / "bin/talus", "check", scene], capture_output=True, text=True)
+
+
+class CheckOfScenes(unittest.TestCase):
+    def test_a_scene_that_its_solver_runs_without_a_step_is_not_refused_for_having_none(self):
+        for name in ("sliding_rope_static", "loaded_membrane_static", "hanging_net_implicit", "hanger_static", "loaded_net_static", "hanging_net"):
+            with self.subTest(scene=name):
+                done = check(ROOT / f"configs/examples/{name}.yaml")
+                self.assertEqual(done.returncode, 0, done.stderr)
+
+    def test_a_coupled_scene_without_a_step_still_is(self):
+        scene = pathlib.Path(tempfile.mkdtemp(dir=WORK.name), "scene.yaml")
+        scene.write_text(f"extends: {ROOT}/configs/examples/cable_net.yaml\ntime: {{step: ~}}\n")
+        done = check(scene)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("time.step", done.stderr)
+
+    def test_the_limit_of_a_barrier_is_set_by_its_membrane_and_no_post_is_named(self):
+        table = check(ROOT / "tests/field/barrier/d1000_membrane.yaml").stdout
+        line = next(line for line in table.splitlines() if STRUCTURE in line)
+        self.assertIn("set by the membrane of net, most of all at node", line)
+        self.assertNotIn("post", line)
+
+    def test_ropes_that_hang_slack_are_told_to_want_a_quarter_of_the_limit_and_prestressed_ones_are_not(self):
+        self.assertIn("take a quarter of it", check(ROOT / "configs/examples/hanging_net.yaml").stdout)
+        self.assertNotIn("quarter", check(ROOT / "configs/examples/cable_net.yaml").stdout)
 
 
 if __name__ == "__main__":

@@ -1,9 +1,12 @@
 #include <catch2/catch.hpp>
-
+#include <fstream>
 #include <limits>
+#include <nlohmann/json.hpp>
 
 #include "core/errors.hpp"
 #include "coupler/regress/compare.hpp"
+#include "coupler/regress/outcome.hpp"
+#include "coupler/regress/pool.hpp"
 #include "coupler/regress/report.hpp"
 #include "tests/support/folder.hpp"
 
@@ -21,7 +24,82 @@ Table changed(std::size_t row, std::size_t column, double by) {
   return table;
 }
 
+nlohmann::json summary(const char* version = "0.1.0") {
+  return {
+      {"status", "finished"},
+      {"rows", 3},
+      {"frames", 0},
+      {"wall_time_s", 1.5},
+      {"iterations", {{"windows", 210}, {"windows_not_converged", 0}, {"windows_halved", 2}, {"mean", 1.5}}},
+      {"participants",
+       {{"structure", std::string("fem_solver ") + version}, {"particles", "springs (NumPy)"}}}};
+}
+
+/// Runs a shell script in the place of talus, which gets `run SCENE --out FOLDER ...`.
+FinishedRun run_script(const test::Folder& folder, const std::string& script, double time_limit) {
+  std::ofstream(folder / "talus") << "#!/bin/sh\n" << script;
+  std::filesystem::permissions(folder / "talus", std::filesystem::perms::owner_all);
+  const ScheduledRun run{.scene = folder / "scene.yaml",
+                         .folder = folder / "result",
+                         .console = folder / "console.txt",
+                         .time_limit = time_limit};
+  return run_side_by_side({run}, 1, folder / "talus")->front();
+}
+
 }  // namespace
+
+TEST_CASE("what is counted of a summary is there, and another status, row, window or participant is told") {
+  const auto baseline = counts_of(summary());
+  CHECK(baseline.at("/rows") == 3);
+  CHECK(baseline.at("/iterations/windows") == 210);
+  CHECK(first_other_count(baseline, counts_of(summary())).empty());
+  for (const auto& [pointer, value] : {std::pair<const char*, nlohmann::json>{"/status", "failed"},
+                                       {"/rows", 4},
+                                       {"/frames", 1},
+                                       {"/iterations/windows", 209},
+                                       {"/iterations/windows_not_converged", 1},
+                                       {"/iterations/windows_halved", 3},
+                                       {"/participants/structure", "other_solver 1.0"}}) {
+    auto other = summary();
+    other[nlohmann::json::json_pointer(pointer)] = value;
+    CAPTURE(pointer);
+    CHECK_FALSE(first_other_count(baseline, counts_of(other)).empty());
+  }
+  auto weak = summary();
+  weak.erase("iterations");
+  CHECK(first_other_count(baseline, counts_of(weak)) == "/iterations/windows is gone");
+  CHECK(first_other_count(counts_of(weak), baseline) == "/iterations/windows is new, 210");
+}
+
+TEST_CASE("the next version of a program breaks no baseline, another program does") {
+  CHECK(first_other_count(counts_of(summary("0.1.0")), counts_of(summary("0.2.0-rc1"))).empty());
+  CHECK(counts_of(summary()).at("/participants").at("structure") == "fem_solver");
+  CHECK(counts_of(summary()).at("/participants").at("particles") == "springs (NumPy)");
+}
+
+TEST_CASE("a baseline with a key that nobody compares, and a summary without one that all have, are errors") {
+  auto baseline = counts_of(summary());
+  baseline["/nonconverged_windows"] = 0;
+  CHECK_THAT(first_other_count(baseline, counts_of(summary())),
+             Catch::Contains("the baseline has /nonconverged_windows, which is not compared"));
+  auto without = summary();
+  without.erase("rows");
+  CHECK_THROWS_WITH(counts_of(without), "summary.json has no /rows");
+}
+
+TEST_CASE("a run is ended at its time limit, counts as failed, and says so") {
+  const test::Folder folder("regress_time");
+  const auto finished = run_script(folder, "echo step 7; exec sleep 100\n", 0.3);
+  CHECK(finished.too_slow);
+  CHECK(finished.seconds < 60);
+  const Regression regression{.name = "slow", .scene = {}, .baseline = folder / "baseline", .tolerances = {}};
+  const ScheduledRun run{
+      .scene = {}, .folder = folder / "result", .console = folder / "console.txt", .time_limit = 0.3};
+  const Outcome outcome = judge(regression, run, finished);
+  CHECK(outcome.verdict == Verdict::failed);
+  CHECK_THAT(outcome.message, Catch::Contains("time limit of 0.3 s") && Catch::Contains("step 7"));
+  CHECK_FALSE(run_script(folder, "exit 0\n", 30).too_slow);
+}
 
 TEST_CASE("a result equals its baseline up to the tolerance of each column, and no farther") {
   const RegressionScene tolerances{.relative = 1e-3, .absolute = 0, .columns = {}};

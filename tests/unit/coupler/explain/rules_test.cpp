@@ -24,6 +24,7 @@ ResultFacts facts_with(const std::vector<Line>& lines) {
   facts.summary = json::parse(R"({
     "last": {}, "wall_time_s": 2.0, "effects": [],
     "energy": {"kinds": {"particles.kinetic_J": "stored"}, "largest_error_relative": 0.0}})");
+  facts.summary["energy"]["impact_J"] = impact;
   facts.energy = {.names = {"time_s", "particles.kinetic_J"}, .columns = {{0, 1}, {impact, 0}}};
   for (const auto& line : lines) {
     facts.energy.names.push_back(line.name);
@@ -97,7 +98,7 @@ TEST_CASE("a line that is missing, or not declared, is unknown and not zero") {
 
 TEST_CASE("where nothing moves, no energy is small against an impact's") {
   ResultFacts facts = facts_with({{"third.wind_J", 0}});
-  facts.energy.columns[1] = {0, 0};
+  facts.summary["energy"]["impact_J"] = 0;
   facts.effects = {own_effect()};
   CHECK(effects_that_do_nothing(facts).empty());
 }
