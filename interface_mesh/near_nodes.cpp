@@ -80,8 +80,8 @@ struct Seeker {
   double reach = 0;
 };
 
-/// Pairs that see each other, both ways. Nodes lie in grids whose cells are as large as what they see, one grid for
-/// each factor of two, so that the cost does not depend on how sizes are spread.
+/// Pairs that see each other, both ways. Nodes lie in grids whose cells are as large as what they see, one
+/// grid for each factor of two, so that the cost does not depend on how sizes are spread.
 class MutualNeighbours {
  public:
   MutualNeighbours(const Surface& surface, const std::vector<Seeker>& seekers)
@@ -121,8 +121,8 @@ class MutualNeighbours {
     }
   };
 
-  /// A cell of the level is longer than twice the reach, so that no more than two cells are seen along an axis;
-  /// what sees nothing but its own place gets the smallest.
+  /// A cell of the level is longer than twice the reach, so that no more than two cells are seen along an
+  /// axis; what sees nothing but its own place gets the smallest.
   static int level_of(double reach) {
     return reach > 0 ? std::max(std::ilogb(reach) + 2, smallest) : smallest;
   }

@@ -19,14 +19,14 @@ struct NearNodes {
 /// apart; what rounding to seven digits tears is nearer.
 std::vector<NearNodes> nearly_joined(const Surface& surface);
 
-/// Joins loose nodes that are not further apart than the tolerance, each with the first of them; where several
-/// are in reach of each other in a row, all become one. Nodes inside of a surface stay what they are.
+/// Joins loose nodes that are not further apart than the tolerance, each with the first of them; where
+/// several are in reach of each other in a row, all become one. Nodes inside of a surface stay what they are.
 /// @param tolerance m; 0 joins those at the same place
 /// @throws core::ConfigError headed by `what` if that would join two corners of one cell
 Net join_loose_nodes(const Net& net, double tolerance, const std::string& what);
 
-/// @throws core::ConfigError headed by `what` that names the nodes which are nearly joined, their distance, and
-/// the `join` that joins them
+/// @throws core::ConfigError headed by `what` that names the nodes which are nearly joined, their distance,
+/// and the `join` that joins them
 void refuse_nearly_joined(const Surface& surface, const std::string& what);
 
 }  // namespace talus::mesh

@@ -11,7 +11,7 @@ namespace talus::mesh {
 namespace {
 
 /// Differences below this part of their terms are round-off: lattice points lie on common circles and lines.
-constexpr double round_off = 1e-10;
+constexpr double circle_round_off = 1e-10;
 
 /// The next and the one after next of three.
 constexpr std::size_t next(std::size_t i) {
@@ -30,11 +30,11 @@ bool is_in_circle(const std::array<Vector2, 3>& corners, const Vector2& d) {
   const double aa = a.squaredNorm(), bb = b.squaredNorm(), cc = c.squaredNorm();
   const double determinant = aa * (b.x() * c.y() - c.x() * b.y()) + bb * (c.x() * a.y() - a.x() * c.y()) +
                              cc * (a.x() * b.y() - b.x() * a.y());
-  return determinant > round_off * (aa + bb + cc) * (aa + bb + cc);
+  return determinant > circle_round_off * (aa + bb + cc) * (aa + bb + cc);
 }
 
 bool is_straight(const Vector2& a, const Vector2& b, const Vector2& c) {
-  return std::abs(turn(a, b, c)) <= round_off * ((b - a).squaredNorm() + (c - a).squaredNorm());
+  return std::abs(turn(a, b, c)) <= circle_round_off * ((b - a).squaredNorm() + (c - a).squaredNorm());
 }
 
 /// Whether corner b of the remaining outline can be cut off: convex, and no other corner in or on the

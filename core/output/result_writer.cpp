@@ -71,8 +71,8 @@ struct FieldFiles {
 };
 
 /// The folder of a run, and room in it for the last words.
-struct Place {
-  explicit Place(const ResultWriter::Options& options)
+struct ResultPlace {
+  explicit ResultPlace(const ResultWriter::Options& options)
       : folder(options.folder, options.existing), reserve(options.folder) {}
   ResultFolder folder;
   Reserve reserve;
@@ -82,7 +82,7 @@ struct Place {
 
 struct ResultWriter::Content {
   Options options;
-  std::unique_ptr<Place> place;
+  std::unique_ptr<ResultPlace> place;
   std::vector<const OutputSource*> sources;
   OutputDescription description;
   CsvFile probe_file;
@@ -101,7 +101,7 @@ struct ResultWriter::Content {
   std::int64_t rows = 0;
   std::vector<double> probe_row = {}, energy_row = {}, field_values = {};
 
-  Content(const Options& o, std::vector<const OutputSource*> s, std::unique_ptr<Place> p)
+  Content(const Options& o, std::vector<const OutputSource*> s, std::unique_ptr<ResultPlace> p)
       : options(o),
         place(std::move(p)),
         sources(std::move(s)),
@@ -240,7 +240,7 @@ struct ResultWriter::Content {
 };
 
 ResultWriter::ResultWriter(const Options& options, std::vector<const OutputSource*> sources) {
-  auto place = std::make_unique<Place>(options);
+  auto place = std::make_unique<ResultPlace>(options);
   try {
     content_ = std::make_unique<Content>(options, std::move(sources), std::move(place));
     content_->write_summary(RunStatus::running, {});

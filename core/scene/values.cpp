@@ -33,7 +33,9 @@ struct Reading {
 };
 
 std::string with_unit(double value, const std::string& unit) {
-  return fmt::format("{}{}{}", value, unit.empty() ? "" : " ", unit);
+  const char* blank = unit.empty() ? "" : " ";
+  if (std::abs(value) >= 1e9) return fmt::format("{:g}{}{}", value, blank, unit);  // no rows of zeros
+  return fmt::format("{}{}{}", value, blank, unit);
 }
 
 bool in_range(double value, const Range& range) {

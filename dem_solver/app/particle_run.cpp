@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "core/parallel.hpp"
+#include "dem_solver/scene/start_check.hpp"
 
 namespace talus::dem {
 
@@ -52,9 +53,11 @@ namespace {
 
 ParticleModel model_of(const RunScene& scene, const mesh::Surface& surface) {
   const int threads = std::max(static_cast<int>(scene.particles.threads), core::thread_count());
-  return build_model(
+  ParticleModel model = build_model(
       scene.particles, surface,
       {.step = own_step(scene).value_or(0), .ledger = scene.output.has_value(), .threads = threads});
+  check_start(scene.particles, model, surface);
+  return model;
 }
 
 std::unique_ptr<core::StageClock> clock_of(const RunScene& scene) {

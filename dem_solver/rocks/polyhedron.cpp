@@ -1,82 +1,13 @@
 #include "dem_solver/rocks/polyhedron.hpp"
 
 #include <Eigen/Dense>
-#include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 #include <vector>
 
+#include "dem_solver/rocks/surface_nodes.hpp"
+
 namespace talus::dem {
-
-namespace {
-
-core::Vector3 node(const mesh::Surface& surface, mesh::Index i) {
-  return core::Vector3(surface.positions[3 * i], surface.positions[3 * i + 1], surface.positions[3 * i + 2]);
-}
-
-struct Face {
-  std::array<mesh::Index, 3> nodes;
-  core::Vector3 a, b, c;
-  Eigen::AlignedBox3d box() const { return Eigen::AlignedBox3d(a).extend(b).extend(c); }
-  bool shares_node(const Face& other) const {
-    return std::ranges::any_of(nodes, [&](mesh::Index i) { return std::ranges::count(other.nodes, i) > 0; });
-  }
-};
-
-/// Whether p-q passes through the inside of the face.
-bool pierces(const core::Vector3& p, const core::Vector3& q, const Face& f) {
-  const auto volume = [](const core::Vector3& u, const core::Vector3& v, const core::Vector3& w) {
-    return u.cross(v).dot(w);
-  };
-  const double above = volume(f.b - f.a, f.c - f.a, p - f.a), below = volume(f.b - f.a, f.c - f.a, q - f.a);
-  if (above * below >= 0) return false;
-  const core::Vector3 d = q - p;
-  const double s = volume(d, f.a - p, f.b - p), t = volume(d, f.b - p, f.c - p),
-               u = volume(d, f.c - p, f.a - p);
-  return (s > 0 && t > 0 && u > 0) || (s < 0 && t < 0 && u < 0);
-}
-
-bool cross_each_other(const Face& f, const Face& g) {
-  if (f.shares_node(g) || !f.box().intersects(g.box())) return false;
-  for (const auto& [x, y] : {std::pair{&f, &g}, std::pair{&g, &f}})
-    if (pierces(x->a, x->b, *y) || pierces(x->b, x->c, *y) || pierces(x->c, x->a, *y)) return true;
-  return false;
-}
-
-std::string at(const core::Vector3& p) {
-  return "(" + std::to_string(p.x()) + ", " + std::to_string(p.y()) + ", " + std::to_string(p.z()) + ") m";
-}
-
-/// Every edge must be run along once in each direction.
-std::string open_edge(const mesh::Surface& surface) {
-  std::map<std::pair<mesh::Index, mesh::Index>, int> edges;
-  for (const auto& [a, b, c] : surface.triangles)
-    for (const auto& edge : {std::pair{a, b}, std::pair{b, c}, std::pair{c, a}}) ++edges[edge];
-  for (const auto& [edge, count] : edges) {
-    const auto back = edges.find({edge.second, edge.first});
-    if (count == 1 && back != edges.end()) continue;
-    return "the surface is not closed: the edge from " + at(node(surface, edge.first)) + " to " +
-           at(node(surface, edge.second)) +
-           (count > 1 ? " belongs to several triangles of the same direction"
-                      : " belongs to one triangle only");
-  }
-  return {};
-}
-
-std::string crossing(const mesh::Surface& surface) {
-  std::vector<Face> faces;
-  for (const auto& t : surface.triangles)
-    faces.push_back({t, node(surface, t[0]), node(surface, t[1]), node(surface, t[2])});
-  for (std::size_t i = 0; i < faces.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j)
-      if (cross_each_other(faces[i], faces[j]))
-        return "the surface crosses itself: triangles " + std::to_string(j) + " and " + std::to_string(i) +
-               " near " + at(faces[i].a);
-  return {};
-}
-
-}  // namespace
 
 VolumeMoments polyhedron_moments(const mesh::Surface& surface) {
   VolumeMoments total;
@@ -90,14 +21,6 @@ VolumeMoments polyhedron_moments(const mesh::Surface& surface) {
         volume / 20 * (a * a.transpose() + b * b.transpose() + c * c.transpose() + s * s.transpose());
   }
   return total;
-}
-
-std::string closed_surface_fault(const mesh::Surface& surface) {
-  if (surface.triangles.empty()) return "the surface has no triangles";
-  if (std::string fault = open_edge(surface); !fault.empty()) return fault;
-  if (polyhedron_moments(surface).volume <= 0)
-    return "the surface is turned inside out: its volume is not positive";
-  return crossing(surface);
 }
 
 double block_edge(double volume, double cut) {

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <string>
-
 #include "dem_solver/rocks/mass_properties.hpp"
 #include "interface_mesh/surface.hpp"
 
@@ -10,12 +8,9 @@ namespace talus::dem {
 /// Volume moments of a closed surface of triangles, exact: the sum over the tetrahedra from the origin to
 /// each triangle,
 ///     V = det/6   S = V (a + b + c)/4   C = V/20 (a a^T + b b^T + c c^T + s s^T), s = a + b + c
-/// Test: "A block's mass properties are those of the closed form". @pre closed_surface_fault(surface).empty()
+/// Test: "A block's mass properties are those of the closed form".
+/// @pre the surface is closed (closed_surface.hpp)
 VolumeMoments polyhedron_moments(const mesh::Surface& surface);
-
-/// Why a surface is no rock: open or overlapping edges, turned inside out, crossing itself; empty for a sound
-/// one.
-std::string closed_surface_fault(const mesh::Surface& surface);
 
 /// A cube without its corners, in the style of the test blocks of EAD 340059 (formerly ETAG 027): each corner
 /// is cut at a fraction of the edge. Its volume is edge^3 (1 - 4/3 cut^3).

@@ -1,89 +1,158 @@
 #include "dem_solver/rocks/sphere_filling.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
 
 #include "core/errors.hpp"
-#include "dem_solver/boundary/closest_point.hpp"
+#include "dem_solver/rocks/inner_grid.hpp"
+#include "dem_solver/rocks/triangle_tree.hpp"
 
 namespace talus::dem {
 
 namespace {
 
-Triple<double> corner(const mesh::Surface& surface, mesh::Index i) {
-  return {surface.positions[3 * i], surface.positions[3 * i + 1], surface.positions[3 * i + 2]};
-}
+/// A length in parts of the deviation, rounded so that what is equal but for round-off is equal.
+class Measure {
+ public:
+  explicit Measure(double deviation) : part_(deviation / parts) {}
+  std::int64_t operator()(double length) const { return std::llround(length / part_); }
+  static constexpr std::int64_t parts = 1 << 30;  ///< that make the deviation
 
-/// How far inside a closed surface a point lies: the distance to the nearest triangle, negative outside.
-double depth(const mesh::Surface& surface, const core::Vector3& point) {
-  const Triple<double> p{point.x(), point.y(), point.z()};
-  double nearest = std::numeric_limits<double>::infinity(), solid_angle = 0;
-  for (const auto& [ia, ib, ic] : surface.triangles) {
-    const Triple<double> a = corner(surface, ia), b = corner(surface, ib), c = corner(surface, ic);
-    const Weights w = closest_on_triangle(p, a, b, c);
-    nearest = std::min(nearest, length(w.a * (a - p) + w.b * (b - p) + w.c * (c - p)));
-    // The solid angle of a triangle (van Oosterom and Strackee 1983); they add up to 4 pi inside and 0
-    // outside.
-    const Triple<double> u = a - p, v = b - p, t = c - p;
-    const double lu = length(u), lv = length(v), lt = length(t);
-    const double bottom = lu * lv * lt + dot(u, v) * lt + dot(v, t) * lu + dot(t, u) * lv;
-    solid_angle += 2 * std::atan2(dot(u, cross(v, t)), bottom);
-  }
-  return solid_angle > 2 * std::numbers::pi ? nearest : -nearest;
-}
-
-struct Candidate {
-  core::Vector3 point;
-  double depth;
+ private:
+  double part_;
 };
 
-std::vector<Candidate> inner_points(const mesh::Surface& surface, double deviation) {
-  Eigen::AlignedBox3d box;
-  for (mesh::Index i = 0; i < surface.node_count(); ++i) box.extend(core::Vector3(&surface.positions[3 * i]));
-  // A grid finer than this many points an edge costs minutes and gains nothing that a contact would feel.
-  constexpr double most_points_along = 64;
-  const double spacing = std::max(0.5 * deviation, box.sizes().maxCoeff() / most_points_along);
+struct Candidate {
+  std::array<int, 3> place;  ///< in the grid
+  core::Vector3 point;       ///< m
+  double depth;              ///< m; the distance to the surface
+  std::int64_t measured_depth;
+};
+
+/// The points of a grid that lie deeper than the deviation, deepest first; equal ones in the grid's
+/// order.
+std::vector<Candidate> inner_points(const mesh::Surface& surface, const PointGrid& grid, double deviation) {
+  const TriangleTree tree(surface);
+  const InnerColumns columns(surface, grid);
+  const Measure measure(deviation);
   std::vector<Candidate> points;
-  const auto steps = [&](int k) { return static_cast<int>(std::ceil(box.sizes()[k] / spacing)); };
-  for (int i = 0; i <= steps(0); ++i)
-    for (int j = 0; j <= steps(1); ++j)
-      for (int k = 0; k <= steps(2); ++k) {
-        const core::Vector3 p = box.center() + spacing * core::Vector3(i - 0.5 * steps(0), j - 0.5 * steps(1),
-                                                                       k - 0.5 * steps(2));
-        if (const double d = depth(surface, p); d >= deviation) points.push_back({p, d});
+  std::int32_t nearest = 0;  // of the point before, and often of the next one
+  for (int i = 0; i <= grid.steps[0]; ++i)
+    for (int j = 0; j <= grid.steps[1]; ++j)
+      for (int k = 0; k <= grid.steps[2]; ++k) {
+        const core::Vector3 p = grid.point(i, j, k);
+        if (!columns.contains(i, j, p.z())) continue;
+        const double depth = tree.distance({p.x(), p.y(), p.z()}, nearest);
+        const std::int64_t measured = measure(depth);
+        if (measured > Measure::parts) points.push_back({{i, j, k}, p, depth, measured});
       }
-  std::ranges::stable_sort(points, std::greater{}, &Candidate::depth);
+  std::ranges::stable_sort(points, std::greater{}, &Candidate::measured_depth);
   return points;
 }
 
-double gap(const std::vector<Ball>& balls, const core::Vector3& point) {
-  double nearest = std::numeric_limits<double>::infinity();
-  for (const Ball& ball : balls) nearest = std::min(nearest, (point - ball.centre).norm() - ball.radius);
-  return nearest;
+/// Which points still need a sphere.
+class Cover {
+ public:
+  Cover(const std::vector<Candidate>& points, const PointGrid& grid, double deviation)
+      : points_(points),
+        grid_(grid),
+        measure_(deviation),
+        covered_(points.size(), 0),
+        at_(static_cast<std::size_t>(grid.points()), nothing) {
+    for (std::size_t n = 0; n < points.size(); ++n)
+      at_[slot(points[n].place[0], points[n].place[1], points[n].place[2])] = static_cast<std::int32_t>(n);
+  }
+
+  bool has(std::size_t n) const { return covered_[n] != 0; }
+
+  /// A point is covered when the sphere around it would not stand out from this one by the deviation. It lies
+  /// inside of this one then, because it is deeper than the deviation.
+  void add(const Ball& ball) {
+    const auto range = [&](int axis) {
+      return std::pair{
+          std::max(0, static_cast<int>(std::floor(grid_.along(axis, ball.centre[axis] - ball.radius)))),
+          std::min(grid_.steps[axis],
+                   static_cast<int>(std::ceil(grid_.along(axis, ball.centre[axis] + ball.radius))))};
+    };
+    const auto [first_i, last_i] = range(0);
+    const auto [first_j, last_j] = range(1);
+    const auto [first_k, last_k] = range(2);
+    for (int i = first_i; i <= last_i; ++i)
+      for (int j = first_j; j <= last_j; ++j)
+        for (int k = first_k; k <= last_k; ++k)
+          if (const std::int32_t n = at_[slot(i, j, k)];
+              n != nothing && !covered_[n] && covers(ball, points_[n]))
+            covered_[n] = 1;
+  }
+
+ private:
+  bool covers(const Ball& ball, const Candidate& candidate) const {
+    return measure_((candidate.point - ball.centre).norm() - ball.radius + candidate.depth) < Measure::parts;
+  }
+  std::size_t slot(int i, int j, int k) const {
+    return (static_cast<std::size_t>(i) * (grid_.steps[1] + 1) + j) * (grid_.steps[2] + 1) + k;
+  }
+
+  static constexpr std::int32_t nothing = -1;
+  const std::vector<Candidate>& points_;
+  const PointGrid& grid_;
+  Measure measure_;
+  std::vector<char> covered_;
+  std::vector<std::int32_t> at_;  ///< the candidate at each point of the grid
+};
+
+/// m; from the spheres to the node that is furthest from them.
+double largest_gap(const std::vector<Ball>& balls, const mesh::Surface& surface) {
+  double largest = 0;
+  std::size_t last = 0;  // neighbouring nodes have the same nearest sphere most of the time
+  for (mesh::Index i = 0; i < surface.node_count(); ++i) {
+    const core::Vector3 node(&surface.positions[3 * i]);
+    double gap = (node - balls[last].centre).norm() - balls[last].radius;
+    for (std::size_t n = 0; n < balls.size() && gap > largest; ++n)
+      if (const double here = (node - balls[n].centre).norm() - balls[n].radius; here < gap) {
+        gap = here;
+        last = n;
+      }
+    largest = std::max(largest, gap);
+  }
+  return largest;
+}
+
+PointGrid grid_for(const mesh::Surface& surface, double deviation) {
+  const PointGrid grid = grid_over(surface, 0.5 * deviation);
+  constexpr double most_points = 4e7;
+  if (grid.points() > most_points)
+    throw core::ConfigError(fmt::format(
+        "filling the rock to a deviation of {:.4g} m takes {:.2g} grid points of half that distance, but "
+        "{:.0g} are "
+        "the most: the deviation must be about {:.2g} m at least",
+        deviation, grid.points(), most_points, deviation * std::cbrt(grid.points() / most_points)));
+  return grid;
 }
 
 }  // namespace
 
 SphereFilling fill_with_spheres(const mesh::Surface& surface, const FillingGoal& goal) {
+  const PointGrid grid = grid_for(surface, goal.deviation);
+  const std::vector<Candidate> points = inner_points(surface, grid, goal.deviation);
+  Cover cover(points, grid, goal.deviation);
   SphereFilling filling;
-  for (const Candidate& candidate : inner_points(surface, goal.deviation)) {
-    // A point counts as filled when the sphere around it would not stand out from the others by the
-    // deviation.
-    if (!filling.balls.empty() && gap(filling.balls, candidate.point) + candidate.depth < goal.deviation)
-      continue;
-    filling.balls.push_back({candidate.point, candidate.depth});
+  for (std::size_t n = 0; n < points.size(); ++n) {
+    if (cover.has(n)) continue;
+    filling.balls.push_back({points[n].point, points[n].depth});
+    cover.add(filling.balls.back());
     if (filling.balls.size() > goal.most_balls)
-      throw core::ConfigError("filling the rock to a deviation of " + std::to_string(goal.deviation) +
-                              " m takes more than " + std::to_string(goal.most_balls) + " spheres");
+      throw core::ConfigError(
+          fmt::format("filling the rock to a deviation of {:.4g} m takes more than {} spheres: "
+                      "the deviation must be larger",
+                      goal.deviation, goal.most_balls));
   }
   if (filling.balls.empty())
     throw core::ConfigError("no sphere fits into the rock: the deviation is larger than half its thickness");
-  for (mesh::Index i = 0; i < surface.node_count(); ++i)
-    filling.deviation =
-        std::max(filling.deviation, gap(filling.balls, core::Vector3(&surface.positions[3 * i])));
+  filling.deviation = largest_gap(filling.balls, surface);
   return filling;
 }
 

@@ -19,10 +19,14 @@ struct FillingGoal {
 };
 
 /// Fills a closed surface with inscribed spheres: again and again the largest that fits around a point which
-/// no sphere comes nearer to than the deviation. Points are those of a grid of half the deviation that lie at
-/// least that deep. Sharp corners stay further from the spheres than the goal (a ball in a cube's corner
-/// leaves 0.73 of its radius); what was reached is measured at the nodes and returned.
-/// @throws ConfigError where the goal needs more than most_balls. @pre the surface is closed
+/// no sphere comes nearer to than the deviation. Points are those of a grid of half the deviation that lie
+/// deeper than it. Sharp corners stay further from the spheres than the goal (a ball in a cube's corner
+/// leaves 0.73 of its radius); what was reached is measured at the nodes and returned. The grid is never made
+/// coarser than that. Lengths that differ by less than a billionth of the deviation count as equal, so that
+/// the same solid gets the same spheres in every unit of length. Costs O(t log t) for t triangles and O(log
+/// t) a grid point inside.
+/// @throws ConfigError where the goal needs more than most_balls, more grid points than memory should hold,
+/// or no sphere is as large as the deviation. @pre closed_surface_fault(surface).empty()
 SphereFilling fill_with_spheres(const mesh::Surface& surface, const FillingGoal& goal);
 
 }  // namespace talus::dem

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "core/errors.hpp"
+#include "dem_solver/scene/body_names.hpp"
 #include "dem_solver/scene/overlap_check.hpp"
 #include "dem_solver/scene/scene_rules.hpp"
 #include "dem_solver/scene/triple_of.hpp"
@@ -171,7 +172,8 @@ ParticleModel build_model(const ParticlesScene& particles, const mesh::Surface& 
       if (boundary.velocity && name == surface.parts[k].name)
         model.boundary.set_velocity(static_cast<Index>(k), triple_of(*boundary.velocity));
   for (const auto& [name, gate] : particles.gates) model.gates.push_back(make_gate(name, gate));
-  check_overlaps(model.spheres);
+  const BodyNames names(particles, model.spheres);
+  check_overlaps(model.spheres, [&](Index sphere) { return names.key(sphere); });
   model.pairs = pair_table(particles);
   model.law = law_of(particles, context);
   if (particles.gravity) model.gravity = triple_of(*particles.gravity);

@@ -7,7 +7,7 @@
 
 namespace talus::dem {
 
-void check_overlaps(std::span<const SphereInput> input) {
+void check_overlaps(std::span<const SphereInput> input, const std::function<std::string(Index)>& name_of) {
   constexpr double tolerance = 1e-9;  // of the smaller radius: spheres written as touching
   if (input.empty()) return;
   Spheres spheres;
@@ -17,6 +17,11 @@ void check_overlaps(std::span<const SphereInput> input) {
   double deepest = 0;
   std::string where;
   std::int64_t count = 0;
+  const auto one = [&](Index i) {
+    const Row& p = spheres.position[i];
+    const std::string name = name_of ? name_of(spheres.id[i]) + " " : "";
+    return fmt::format("{}at ({:.6g}, {:.6g}, {:.6g}) m", name, p.x, p.y, p.z);
+  };
   const auto consider = [&](Index i, Index j) {
     const Row &p = spheres.position[i], &q = spheres.position[j];
     const double depth = p.w + q.w - length(triple<double>(p) - triple<double>(q));
@@ -24,8 +29,7 @@ void check_overlaps(std::span<const SphereInput> input) {
     ++count;
     if (depth <= deepest) return;
     deepest = depth;
-    where = fmt::format("at ({:.6g}, {:.6g}, {:.6g}) m and ({:.6g}, {:.6g}, {:.6g}) m", p.x, p.y, p.z, q.x,
-                        q.y, q.z);
+    where = one(i) + " and " + one(j);
   };
   for (Index i = 0; i < spheres.size(); ++i)
     for (Index slot = list.first()[i]; slot < list.first()[i + 1]; ++slot) consider(i, list.other()[slot]);

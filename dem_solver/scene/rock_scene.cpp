@@ -1,10 +1,14 @@
 #include "dem_solver/scene/rock_scene.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/Dense>
 
 #include "core/errors.hpp"
+#include "core/program/log.hpp"
 #include "core/scene/plausible.hpp"
 #include "dem_solver/rocks/ball_union.hpp"
+#include "dem_solver/rocks/closed_surface.hpp"
 #include "dem_solver/rocks/polyhedron.hpp"
 #include "dem_solver/rocks/sphere_filling.hpp"
 #include "dem_solver/scene/triple_of.hpp"
@@ -75,21 +79,31 @@ struct Shape {
   std::vector<Ball> balls;
   VolumeMoments moments;
   mesh::Surface surface;
+  double deviation = 0;  ///< m; of its nodes from the balls
 };
 
+/// The centre of mass is put at `at`, so the frame of a file or list does not matter: the shape is brought
+/// near the origin, where moments lose no digits to coordinates of a map.
 Shape shape_of(const std::string&, const SpheresShapeScene& scene, double) {
   Shape shape;
   for (std::size_t k = 0; k < scene.centres.size(); ++k)
-    shape.balls.push_back({scene.centres[k], scene.radii[k]});
+    shape.balls.push_back({scene.centres[k] - scene.centres[0], scene.radii[k]});
   shape.moments = union_moments(shape.balls);
   return shape;
 }
 
 Shape filled(const std::string& name, mesh::Surface surface, double deviation) {
+  const std::string place = "particles.rocks." + name;
   if (const std::string fault = closed_surface_fault(surface); !fault.empty())
-    throw core::ConfigError("particles.rocks." + name + ": " + fault);
+    throw core::ConfigError(place + ": " + fault);
   Shape shape;
-  shape.balls = fill_with_spheres(surface, {.deviation = deviation}).balls;
+  const SphereFilling filling = fill_with_spheres(surface, {.deviation = deviation});
+  core::log_info(
+      fmt::format("{}: {} spheres stand for the surface; of its {} nodes the furthest is {:.4g} m away from "
+                  "them, for a deviation of {:.4g} m",
+                  place, filling.balls.size(), surface.node_count(), filling.deviation, deviation));
+  shape.balls = filling.balls;
+  shape.deviation = filling.deviation;
   shape.moments = polyhedron_moments(surface);
   shape.surface = std::move(surface);
   return shape;
@@ -100,8 +114,23 @@ Shape shape_of(const std::string& name, const BlockScene& block, double density)
   return filled(name, make_block({.edge = edge, .cut = block.cut}), block.deviation.value_or(0.05 * edge));
 }
 
+void centre(mesh::Surface& surface) {
+  Eigen::Map<Eigen::Matrix3Xd> nodes(surface.positions.data(), 3, surface.node_count());
+  const core::Vector3 middle = 0.5 * (nodes.rowwise().minCoeff() + nodes.rowwise().maxCoeff());
+  nodes.colwise() -= middle;
+}
+
 Shape shape_of(const std::string& name, const SurfaceScene& scene, double) {
-  return filled(name, mesh::generate(scene.file).surface, scene.deviation);
+  mesh::Surface surface = mesh::generate(scene.file).surface;
+  if (!surface.segments.empty())
+    throw core::ConfigError(
+        fmt::format("particles.rocks.{}: the file holds {} lines beside its triangles, which are no "
+                    "part of a solid: take the triangles alone (`part`)",
+                    name, surface.segments.size()));
+  centre(surface);
+  if (turn_outwards(surface))
+    core::log_info("particles.rocks." + name + ": the surface was inside out and is turned over");
+  return filled(name, std::move(surface), scene.deviation);
 }
 
 Eigen::Quaterniond rotation_of(const core::Vector3& turned) {
@@ -137,6 +166,7 @@ BuiltRock build_rock(const std::string& name, const RockScene& scene, double den
                              .radius = ball.radius,
                              .mass = mass.mass});
   }
+  built.deviation = shape.deviation;
   built.surface = shape.surface;
   for (mesh::Index i = 0; i < built.surface.node_count(); ++i) {
     Eigen::Map<core::Vector3> p(&built.surface.positions[3 * i]);

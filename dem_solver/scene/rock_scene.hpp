@@ -51,6 +51,7 @@ struct BuiltRock {
   RockInput rock;
   std::vector<SphereInput> spheres;  ///< their `rock` and `material` are still to be set
   mesh::Surface surface;             ///< positions in the rock's principal axes, about its centre
+  double deviation = 0;              ///< m; of the surface's nodes from the spheres, 0 without a surface
 };
 /// @throws ConfigError for a surface that is no closed solid, or cannot be filled
 BuiltRock build_rock(const std::string& name, const RockScene& scene, double density);

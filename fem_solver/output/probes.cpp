@@ -29,8 +29,8 @@ WatchedNode node_of_probe(const Model& model, const std::string& probe, const Ve
     throw core::ConfigError(
         fmt::format("output.probes.{}.at: no node is near: {}; the longest element there has {}", probe,
                     description(model, watched), core::readable(watched.reach, "m")));
-  constexpr double round_off = 1e-6;  // of the element, as for the nodes of loads and supports
-  if (watched.distance > round_off * watched.reach)
+  constexpr double rounded = 1e-3;  // of the element: coordinates as they are written
+  if (watched.distance > rounded * watched.reach)
     core::log_info(fmt::format("probe {} watches {}", probe, description(model, watched)));
   return watched;
 }

@@ -39,7 +39,6 @@ class Reader {
   std::size_t corners_of(Number kind) const;
   void read_corners(Element& element);
   void look_up_groups();
-  void merge_repeated_elements();
 
   Scanner& text_;
   Content content_;
@@ -286,49 +285,6 @@ void Reader::look_up_groups() {
   });
 }
 
-/// 1 where both run round the same way, -1 the opposite way, 0 where they are different elements.
-int same_turn(const Element& a, const Element& b) {
-  const std::size_t n = a.corners;
-  for (std::size_t shift = 0; shift < n; ++shift) {
-    bool forward = true, backward = true;
-    for (std::size_t k = 0; k < n; ++k) {
-      forward = forward && a.nodes[k] == b.nodes[(k + shift) % n];
-      backward = backward && a.nodes[k] == b.nodes[(n - k + shift) % n];
-    }
-    // The opposite of a line is a shift, too.
-    if (forward) return n == 2 && shift == 1 ? -1 : 1;
-    if (backward) return -1;
-  }
-  return 0;
-}
-
-/// Version 2.2 lists an element once for each of its groups.
-void Reader::merge_repeated_elements() {
-  using Same = std::pair<Key, std::array<Number, 4>>;
-  std::map<Same, std::size_t> places;
-  std::vector<Element> kept;
-  for (Element& element : content_.elements) {
-    std::array<Number, 4> sorted = element.nodes;
-    std::sort(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(element.corners));
-    const auto [found, is_new] = places.emplace(Same{element.entity, sorted}, kept.size());
-    if (is_new || element.kind == single_point) {
-      kept.push_back(std::move(element));
-      continue;
-    }
-    Element& first = kept[found->second];
-    const int turn = same_turn(first, element);
-    const bool other_group =
-        !element.groups.empty() && !first.groups.empty() && version_ == Version::plain_2 &&
-        std::none_of(first.groups.begin(), first.groups.end(),
-                     [&](Number group) { return std::abs(group) == std::abs(element.groups[0]); });
-    if (turn == 0 || !other_group)
-      text_.fail_at(element.line,
-                    fmt::format("an element is there twice: its nodes are those of line {}", first.line));
-    first.groups.push_back(turn * element.groups[0]);
-  }
-  content_.elements = std::move(kept);
-}
-
 Content Reader::read() {
   while (text_.next_line()) {
     if (!text_.rest().starts_with('$'))
@@ -340,7 +296,7 @@ Content Reader::read() {
   }
   if (content_.elements.empty()) text_.fail("the file has no elements");
   look_up_groups();
-  merge_repeated_elements();
+  merge_repeated_elements(text_, content_, version_ == Version::plain_2);
   return std::move(content_);
 }
 

@@ -37,6 +37,10 @@ struct Content {
   std::vector<Element> elements;  ///< each once, whatever number of groups it is listed in
 };
 
+/// Makes one element of those that the file lists once for each of their groups, as version 2.2 does.
+/// @throws core::ConfigError for an element that is there twice otherwise
+void merge_repeated_elements(const Scanner& text, Content& content, bool once_a_group);
+
 /// @throws core::ConfigError as read_gmsh
 Content read(Scanner& text);
 

@@ -12,17 +12,13 @@ namespace talus::mesh {
 
 namespace {
 
-using gmsh::Element;
-using gmsh::Key;
-using gmsh::Number;
-
 /// Gives the content the numbers of a surface.
 class Assembly {
  public:
   explicit Assembly(const gmsh::Content& content) : content_(content) {
-    for (const Element& element : content_.elements)
-      for (const Number group : element.groups) used_groups_.insert(key_of(element, group));
-    for (const Number tag : content_.node_order) {
+    for (const gmsh::Element& element : content_.elements)
+      for (const gmsh::Number group : element.groups) used_groups_.insert(key_of(element, group));
+    for (const gmsh::Number tag : content_.node_order) {
       index_[tag] = static_cast<Index>(positions_.size() / 3);
       const auto& at = content_.nodes.at(tag);
       positions_.insert(positions_.end(), at.begin(), at.end());
@@ -30,19 +26,21 @@ class Assembly {
   }
 
   Net net() {
-    for (const Element& element : content_.elements) add(element);
+    for (const gmsh::Element& element : content_.elements) add(element);
     return cells_.net(positions_);
   }
 
  private:
-  static Key key_of(const Element& element, Number group) { return {element.entity.first, std::abs(group)}; }
+  static gmsh::Key key_of(const gmsh::Element& element, gmsh::Number group) {
+    return {element.entity.first, std::abs(group)};
+  }
 
   /// Groups without a name are called after their number; numbers are used anew for every dimension.
-  std::string name_of(const Key& group) const {
+  std::string name_of(const gmsh::Key& group) const {
     const auto found = content_.group_names.find(group);
     if (found != content_.group_names.end()) return found->second;
-    const auto unnamed_as_well = [&](Number dimension) {
-      const Key other{dimension, group.second};
+    const auto unnamed_as_well = [&](gmsh::Number dimension) {
+      const gmsh::Key other{dimension, group.second};
       return used_groups_.contains(other) && !content_.group_names.contains(other);
     };
     const bool alone = unnamed_as_well(0) + unnamed_as_well(1) + unnamed_as_well(2) == 1;
@@ -51,9 +49,9 @@ class Assembly {
     return fmt::format("group_{}_of_{}", group.second, kinds[static_cast<std::size_t>(group.first)]);
   }
 
-  void add(const Element& element) {
+  void add(const gmsh::Element& element) {
     std::vector<Listing> listings;
-    for (const Number group : element.groups) {
+    for (const gmsh::Number group : element.groups) {
       const std::string name = name_of(key_of(element, group));
       if (std::none_of(listings.begin(), listings.end(), [&](const Listing& l) { return l.group == name; }))
         listings.push_back({name, group < 0});
@@ -70,8 +68,8 @@ class Assembly {
   }
 
   const gmsh::Content& content_;
-  std::set<Key> used_groups_;
-  std::unordered_map<Number, Index> index_;
+  std::set<gmsh::Key> used_groups_;
+  std::unordered_map<gmsh::Number, Index> index_;
   std::vector<double> positions_;
   std::vector<Listing> last_listings_;
   CellCollector cells_;

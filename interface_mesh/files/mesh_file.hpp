@@ -18,7 +18,8 @@ Net read_mesh_file(const std::filesystem::path& path);
 /// @throws core::ConfigError if the file cannot be written or the kind does not take the mesh
 void write_mesh_file(const Net& net, const std::filesystem::path& path);
 
-/// One of a file's cell sets alone, turned as it lists its triangles, with the nodes it uses and the node sets cut down to them.
+/// One of a file's cell sets alone, turned as it lists its triangles, with the nodes it uses and the node
+/// sets cut down to them.
 /// @throws core::ConfigError naming the sets there are, if it is not among them
 Net extract_part(const Net& net, const std::string& part);
 

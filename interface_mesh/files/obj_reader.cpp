@@ -16,9 +16,9 @@ constexpr std::array passed_over{"vt",     "vn",         "vp",        "s",      
                                  "usemap", "maplib",     "bevel",     "c_interp", "d_interp", "lod",
                                  "p",      "shadow_obj", "trace_obj", "ctech",    "stech"};
 
-class Reader {
+class ObjReader {
  public:
-  explicit Reader(Scanner text) : text_(std::move(text)) {}
+  explicit ObjReader(Scanner text) : text_(std::move(text)) {}
 
   Net read() {
     while (text_.next_line()) {
@@ -128,7 +128,7 @@ class Reader {
 }  // namespace
 
 Net read_obj(Scanner text) {
-  return Reader(std::move(text)).read();
+  return ObjReader(std::move(text)).read();
 }
 
 }  // namespace talus::mesh

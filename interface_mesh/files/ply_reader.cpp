@@ -15,21 +15,16 @@ namespace talus::mesh {
 
 namespace {
 
-using ply::Element;
-using ply::Header;
-using ply::Property;
-using ply::Type;
-
 /// The values of one element, by property; one value where it is no list. All types fit a double exactly.
-using Row = std::vector<std::vector<double>>;
+using PlyRow = std::vector<std::vector<double>>;
 
 /// Reads the values behind the header, one by one.
-class Values {
+class PlyValues {
  public:
-  Values(Scanner& text, Header::Format format)
+  PlyValues(Scanner& text, ply::Header::Format format)
       : text_(text), format_(format), bytes_(text.after_line()), total_(bytes_.size()) {}
 
-  void read_row(const Element& element, Row& row) {
+  void read_row(const ply::Element& element, PlyRow& row) {
     row.resize(element.properties.size());
     if (is_text() && !element.properties.empty() && !text_.next_line())
       fail(fmt::format("the file ends where another {} is expected", element.name));
@@ -52,38 +47,38 @@ class Values {
   }
 
  private:
-  bool is_text() const { return format_ == Header::Format::text; }
+  bool is_text() const { return format_ == ply::Header::Format::text; }
 
-  void read_property(const Property& property, std::vector<double>& values) {
+  void read_property(const ply::Property& property, std::vector<double>& values) {
     values.clear();
     double count = property.is_list ? read_value(property.count_type, "a list's length") : 1;
     if (count < 0) fail(fmt::format("a list's length is {}, which cannot be", count));
     for (; count > 0; --count) values.push_back(read_value(property.type, property.name.c_str()));
   }
 
-  double read_value(Type type, const char* what) {
+  double read_value(ply::Type type, const char* what) {
     if (!is_text()) return read_binary(type, what);
-    const bool real = type == Type::float32 || type == Type::float64;
+    const bool real = type == ply::Type::float32 || type == ply::Type::float64;
     return real ? text_.real(what) : static_cast<double>(text_.integer(what));
   }
 
-  double read_binary(Type type, const char* what) {
+  double read_binary(ply::Type type, const char* what) {
     switch (type) {
-      case Type::int8:
+      case ply::Type::int8:
         return taken<std::int8_t>(what);
-      case Type::uint8:
+      case ply::Type::uint8:
         return taken<std::uint8_t>(what);
-      case Type::int16:
+      case ply::Type::int16:
         return taken<std::int16_t>(what);
-      case Type::uint16:
+      case ply::Type::uint16:
         return taken<std::uint16_t>(what);
-      case Type::int32:
+      case ply::Type::int32:
         return taken<std::int32_t>(what);
-      case Type::uint32:
+      case ply::Type::uint32:
         return taken<std::uint32_t>(what);
-      case Type::float32:
+      case ply::Type::float32:
         return taken<float>(what);
-      case Type::float64:
+      case ply::Type::float64:
         break;
     }
     return taken<double>(what);
@@ -95,41 +90,42 @@ class Values {
     std::array<char, sizeof(Value)> in_order;
     std::copy_n(bytes_.begin(), sizeof(Value), in_order.begin());
     const bool as_here =
-        (format_ == Header::Format::little_endian) == (std::endian::native == std::endian::little);
+        (format_ == ply::Header::Format::little_endian) == (std::endian::native == std::endian::little);
     if (!as_here) std::reverse(in_order.begin(), in_order.end());
     bytes_.remove_prefix(sizeof(Value));
     return std::bit_cast<Value>(in_order);
   }
 
   Scanner& text_;
-  Header::Format format_;
+  ply::Header::Format format_;
   std::string_view bytes_;
   std::size_t total_;
 };
 
-class Reader {
+class PlyReader {
  public:
-  explicit Reader(Scanner& text)
+  explicit PlyReader(Scanner& text)
       : text_(text), header_(ply::read_header(text)), values_(text, header_.format) {}
 
   Net read() {
-    for (const Element& element : header_.elements) read_element(element);
+    for (const ply::Element& element : header_.elements) read_element(element);
     values_.expect_end();
     if (cells_.empty()) text_.fail("the file holds neither lines nor triangles");
     return cells_.net(nodes_.take_positions());
   }
 
  private:
-  void read_element(const Element& element) {
+  void read_element(const ply::Element& element) {
     if (element.name == "vertex") return read_vertices(element);
     if (element.name == "face") return read_faces(element);
     if (element.name == "edge") return read_edges(element);
     if (element.name == "tristrips" && element.count > 0)
       text_.fail("triangle strips are not read: save the file with faces");
+    if (element.properties.empty()) return;  // takes no place, whatever its count is
     for (std::int64_t k = 0; k < element.count; ++k) values_.read_row(element, row_);
   }
 
-  std::size_t place_of(const Element& element, std::string_view name, std::string_view other_name,
+  std::size_t place_of(const ply::Element& element, std::string_view name, std::string_view other_name,
                        bool is_list) const {
     const std::size_t place = element.find(name, other_name);
     if (place == element.properties.size())
@@ -140,7 +136,7 @@ class Reader {
     return place;
   }
 
-  void read_vertices(const Element& element) {
+  void read_vertices(const ply::Element& element) {
     const std::array places{place_of(element, "x", "x", false), place_of(element, "y", "y", false),
                             place_of(element, "z", "z", false)};
     for (std::int64_t k = 0; k < element.count; ++k) {
@@ -158,7 +154,7 @@ class Reader {
     return vertices_[static_cast<std::size_t>(number)];
   }
 
-  void read_faces(const Element& element) {
+  void read_faces(const ply::Element& element) {
     if (element.count == 0) return;
     const std::size_t place = place_of(element, "vertex_indices", "vertex_index", true);
     for (std::int64_t k = 0; k < element.count; ++k) {
@@ -176,7 +172,7 @@ class Reader {
     }
   }
 
-  void read_edges(const Element& element) {
+  void read_edges(const ply::Element& element) {
     if (element.count == 0) return;
     const std::size_t from = place_of(element, "vertex1", "vertex1", false),
                       to = place_of(element, "vertex2", "vertex2", false);
@@ -187,9 +183,9 @@ class Reader {
   }
 
   Scanner& text_;
-  Header header_;
-  Values values_;
-  Row row_;
+  ply::Header header_;
+  PlyValues values_;
+  PlyRow row_;
   JoinedNodes nodes_;
   std::vector<Index> vertices_;  ///< the node of each
   CellCollector cells_;
@@ -198,7 +194,7 @@ class Reader {
 }  // namespace
 
 Net read_ply(Scanner text) {
-  return Reader(text).read();
+  return PlyReader(text).read();
 }
 
 }  // namespace talus::mesh

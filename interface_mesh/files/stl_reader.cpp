@@ -48,9 +48,9 @@ bool begins_with_word(std::string_view text, std::string_view lower_case) {
                     [](char a, char b) { return a == std::tolower(static_cast<unsigned char>(b)); });
 }
 
-class Reader {
+class StlReader {
  public:
-  explicit Reader(Scanner text) : text_(std::move(text)) {}
+  explicit StlReader(Scanner text) : text_(std::move(text)) {}
 
   Net read() {
     if (is_binary(text_.content()))
@@ -155,7 +155,7 @@ class Reader {
 }  // namespace
 
 Net read_stl(Scanner text) {
-  return Reader(std::move(text)).read();
+  return StlReader(std::move(text)).read();
 }
 
 }  // namespace talus::mesh

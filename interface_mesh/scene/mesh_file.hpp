@@ -20,8 +20,8 @@ struct MeshFileScene {
 void describe(core::Fields& fields, MeshFileScene& file);
 
 /// @throws core::ConfigError if the file cannot be read, has no such part, its mesh has faults
-/// (surface_checks.hpp), or loose nodes nearly touch each other and the scene does not say what to do with them
-/// (near_nodes.hpp)
+/// (surface_checks.hpp), or loose nodes nearly touch each other and the scene does not say what to do with
+/// them (near_nodes.hpp)
 Net generate(const MeshFileScene& file);
 
 }  // namespace talus::mesh

@@ -7,7 +7,7 @@
 #include "tests/support/folder.hpp"
 #include "tests/support/scenes.hpp"
 
-#include "dem_solver/rocks/polyhedron.hpp"
+#include "dem_solver/rocks/closed_surface.hpp"
 #include "dem_solver/scene/build_model.hpp"
 #include "dem_solver/scene/overlap_check.hpp"
 #include "dem_solver/scene/particles_scene.hpp"
@@ -149,16 +149,19 @@ TEST_CASE("Surfaces that are no rock are refused with the place of the fault") {
   mesh::Surface apart, crossing;
   add_tetrahedron(apart, {0, 0, 0});
   add_tetrahedron(apart, {5, 0, 0});
-  CHECK(dem::closed_surface_fault(apart).empty());
+  CHECK_THAT(dem::closed_surface_fault(apart), Contains("is 2 separate bodies"));
   add_tetrahedron(crossing, {0, 0, 0});
   add_tetrahedron(crossing, {0.1, 0.2, 0.3});
-  CHECK_THAT(dem::closed_surface_fault(crossing), Contains("crosses itself: triangles"));
-  mesh::Surface inside_out = apart;
+  CHECK_THAT(dem::closed_surface_fault(crossing), Contains("reach into each other: triangles"));
+  mesh::Surface alone;
+  add_tetrahedron(alone, {5, 0, 0});
+  CHECK(dem::closed_surface_fault(alone).empty());
+  mesh::Surface inside_out = alone;
   for (auto& t : inside_out.triangles) std::swap(t[0], t[1]);
   CHECK_THAT(dem::closed_surface_fault(inside_out), Contains("turned inside out"));
   mesh::Surface open = apart;
   open.triangles.pop_back();
-  CHECK_THAT(dem::closed_surface_fault(open), Contains("is not closed: the edge from (6.0"));
+  CHECK_THAT(dem::closed_surface_fault(open), Contains("is not closed: the edge from (6, 0, 0) m"));
 }
 
 TEST_CASE("Triangles without area and wires without length are refused as boundaries") {

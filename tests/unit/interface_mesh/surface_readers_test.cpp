@@ -313,6 +313,8 @@ TEST_CASE(
   CHECK(error_of(ply, binary.substr(0, binary.size() - 1)) ==
         "rock.ply:10: the file ends where vertex2 is expected (at byte 34 behind the header)");
   CHECK_THAT(error_of(ply, binary + "x"), Catch::Contains("goes on behind the elements"));
+  CHECK(ply(replaced(text, "element material 1", "element nothing 9000000000000000000\nelement material 1"))
+            .surface == net.surface);
 }
 
 TEST_CASE("a PLY file that is not what it should be is refused with the line") {

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "dem_solver/rocks/ball_union.hpp"
+#include "dem_solver/rocks/closed_surface.hpp"
 #include "dem_solver/rocks/polyhedron.hpp"
 #include "dem_solver/rocks/sphere_filling.hpp"
 #include "dem_solver/scene/rock_scene.hpp"

@@ -1,0 +1,89 @@
+"""Inputs as people write them (tests/field), run by the programs: read as they are meant, or refused before time 0 with the reason. Each folder is a
+kind of fault; unit tests of the same kinds have more members.
+
+Arguments: the folder of the repository, the folder of the build."""
+import math
+import pathlib
+import unittest
+
+from scene_run import ROOT, Run
+
+FIELD = pathlib.Path(ROOT, "tests/field").resolve()
+
+
+def run(scene: str, program: str) -> Run:
+    return Run(FIELD / f"{scene}.yaml", program=program)
+
+
+class Inputs(unittest.TestCase):
+    def refused(self, scene: str, program: str, *words: str) -> None:
+        with self.subTest(scene=scene):
+            tried = run(scene, program)
+            self.assertEqual(tried.done.returncode, 2, tried.done.stderr)
+            for word in words:
+                self.assertIn(word, tried.done.stderr)
+            self.assertFalse((tried.result / "energy.csv").exists(), "something was computed")
+
+
+class Units(Inputs):
+    def test_angles_frequencies_and_lost_prefixes_are_refused_with_what_to_write(self):
+        self.refused("units/a_30deg", "dem_solver", "friction.coefficient", "expects a plain number, got '30 deg'", "0.57735")
+        self.refused("units/b_3Hz", "dem_solver", "rocks.block.spin[2]", "a frequency", "'3 turn/s'")
+        self.refused("units/c_mPa", "fem_solver", "youngs_modulus", "'1770 mPa' is 1.77 Pa", "MPa")
+        self.refused("units/f_deg", "dem_solver", "poissons_ratio", "got '14 deg', which is an angle")
+
+    def test_turns_a_minute_are_an_angular_velocity(self):
+        self.assertAlmostEqual(run("units/b_rpm", "dem_solver").column("block.spin_z_rad_per_s")[0], 3 * 2 * math.pi / 60, places=12)
+
+
+class Grids(Inputs):
+    def test_dialects_are_read(self):
+        ends = {}
+        for grid in ("a_nan", "b_dx_dy", "d_nodata_float", "j_bom"):
+            with self.subTest(grid=grid):
+                ends[grid] = run(f"grids/{grid}", "dem_solver").column("ball.position_x_m")[-1]
+        self.assertEqual(ends["b_dx_dy"], ends["j_bom"])
+
+    def test_voids_degrees_and_decimal_commas_are_refused_with_line_and_reason(self):
+        self.refused("grids/e_void_small_step", "dem_solver", "e_void_small_step.asc:6:", "-32768 in row 1, column 1, at (1, 7)", "NODATA_value")
+        self.refused("grids/f_degrees", "dem_solver", "f_degrees.asc:6:", "degrees of longitude and latitude")
+        self.refused("grids/h_comma", "dem_solver", "h_comma.asc:6:", "'101,5'", "decimals need a point")
+
+
+class Probes(Inputs):
+    def test_a_probe_far_from_every_node_is_refused_with_its_distance(self):
+        self.refused("probes/metres_for_mm", "talus", "output.probes.net_centre.at", "2117 m from")
+
+    def test_the_summary_says_which_node_a_probe_between_two_watches(self):
+        watches = run("probes/between", "talus").summary["probes"]["net_centre"]
+        self.assertRegex(watches, r"node \d+ of net at \(1\.(5|65), 1\.5, 0\) m, 75 mm from the point asked for")
+
+
+class Orthotropic(Inputs):
+    def test_what_differs_by_direction_needs_its_axis(self):
+        for scene, what in (("iso_pre_A", "prestress"), ("iso_pre_B", "prestress"), ("ortho_none_A", "stiffness"), ("ortho_none_B", "stiffness"),
+                            ("outline_0_none", "stiffness"), ("outline_1_none", "stiffness")):
+            self.refused(f"orthotropic/{scene}", "fem_solver", "needs `material_axis`", f"the {what} differs by direction")
+
+    def test_with_an_axis_the_sheet_is_pulled_by_force_over_stiffness(self):
+        # 1000 N on 1 m x 1 mm: S = 1 MPa x 1/(1 + e) on E = 1e8 Pa, E_green = e + e^2/2.
+        stretch = run("orthotropic/ortho_x_A", "fem_solver").column("a.displacement_x_m")[-1]
+        self.assertAlmostEqual((1 + stretch) * (stretch + stretch**2 / 2) * 1e8, 1e6, delta=1)
+
+
+class StartsInside(Inputs):
+    def test_every_body_is_named_with_its_partner_and_depth_before_time_0(self):
+        for scene, words in (("a_inside_plane", ("spheres.ball", "plane `floor`", "200 mm")),
+                             ("a_inside_triangles", ("spheres.ball", "face of `floor`", "200 mm")),
+                             ("c_below_triangles", ("spheres.ball", "below a face of `floor`", "800 mm")),
+                             ("d_centre_on_wire", ("spheres.ball", "wire of `w`", "505 mm")),
+                             ("e_stream_in_floor", ("streams.a", "of its spheres", "plane `floor`")),
+                             ("f_rock_in_plane", ("rocks.ball", "plane `floor`", "300 mm"))):
+            self.refused(f"starts_inside/{scene}", "dem_solver", *words)
+
+    def test_a_boulder_in_the_net_of_a_coupled_run_is_named_too(self):
+        self.refused("starts_inside/g_coupled_overlaps_net", "talus", "particles.spheres.boulder: starts inside of a wire of `net`, by 43.49 mm")
+
+
+if __name__ == "__main__":
+    unittest.main(argv=["field_inputs_test"])
