@@ -68,9 +68,8 @@ void obey(const Command& command, ParticleRun& run, WindowSteps& steps, coupler:
     case Action::report:
       return coupler::report(participant, command, run.output);
     case Action::write_checkpoint:
-      return coupler::write_checkpoint(command, [&](const std::filesystem::path& path) {
-        write_checkpoint(run.solver, path, rest);
-      });
+      return coupler::write_checkpoint(
+          command, [&](const std::filesystem::path& path) { write_checkpoint(run.solver, path, rest); });
     case Action::read_checkpoint:
       return read_checkpoint(run.solver, command.path, rest);
     case Action::finish:

@@ -322,20 +322,29 @@ TEST_CASE(
 
 TEST_CASE(
     "a scene that is refused stays refused, a time limit that was too short does not once it is longer") {
-  Study study(
-      replaced(replaced(study_text, "value: 300 ms}", "value: 300 ms}, {key: model.nonsense, value: 1}"),
-               "{key: model.order, value: 1}", "{key: model.hangs, value: true}"));
-  std::ofstream(study.folder / "study.yaml", std::ios::app) << "  time_limit: 0.05 s\n";
+  const std::string text = R"(
+study:
+  base: base.yaml
+  sweep: {keys: [model.step], values: [100 ms], unit: s}
+  across: {keys: [model.order], values: [1]}
+  methods:
+    wrong: {set: [{key: model.nonsense, value: 1}]}
+    endless: {set: [{key: model.hangs, value: true}]}
+  repeats: 1
+  time_limit: 1 s
+)";
+  const Study study(text);
   study::run_study(study.request());
   study::run_study(study.request());
-  CHECK(point(study.result().at("points"), "second_100_ms").at("detail") == "refused");
-  CHECK(study.runs_of("second_100_ms") == 1);
-  CHECK(study.runs_of("first_100_ms") == 1);
-  const std::string patient = replaced(test::text_of(study.folder / "study.yaml"), "0.05 s", "0.06 s");
-  study.folder.add("study.yaml", patient);
+  const json result = study.result();
+  CHECK(point(result.at("points"), "wrong_100_ms_1").at("detail") == "refused");
+  CHECK(point(result.at("points"), "endless_100_ms_1").at("detail") == "too slow");
+  CHECK(study.runs_of("wrong_100_ms_1") == 1);
+  CHECK(study.runs_of("endless_100_ms_1") == 1);
+  study.folder.add("study.yaml", replaced(text, "time_limit: 1 s", "time_limit: 1.1 s"));
   study::run_study(study.request());
-  CHECK(study.runs_of("second_100_ms") == 1);
-  CHECK(study.runs_of("first_100_ms") == 2);
+  CHECK(study.runs_of("wrong_100_ms_1") == 1);
+  CHECK(study.runs_of("endless_100_ms_1") == 2);
 }
 
 TEST_CASE("repetitions are interleaved: every point once, methods in turn, before any point again") {
