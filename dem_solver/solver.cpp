@@ -293,7 +293,18 @@ void ParticleSolver::add_spheres_to(ParticleLedger& ledger) const noexcept {
   }
 }
 
-ParticleLedger ParticleSolver::ledger() const noexcept {
+/// Before the first step nobody has looked at the contacts: a copy does.
+double ParticleSolver::stored_energy() const {
+  if (steps_done_ == 0 && spheres_.size() > 0) {
+    ParticleSolver ahead = *this;
+    ahead.stage_clock_ = nullptr;
+    ahead.step();
+    return ahead.stored_energy();
+  }
+  return std::visit([](const auto& model) { return model.stored_energy(); }, contacts_);
+}
+
+ParticleLedger ParticleSolver::ledger() const {
   ParticleLedger ledger{.damping = work_.damping, .friction = work_.friction, .boundary = work_.boundary};
   add_spheres_to(ledger);
   for (Index k = 0; k < rocks_.size(); ++k) {
@@ -301,7 +312,7 @@ ParticleLedger ParticleSolver::ledger() const noexcept {
     ledger.kinetic += energy.translation;
     ledger.rotation += energy.rotation;
   }
-  ledger.elastic = std::visit([](const auto& model) { return model.stored_energy(); }, contacts_);
+  ledger.elastic = stored_energy();
   ledger.gravity = gravity_work_level() - gravity_level_at_start_;
   return ledger;
 }

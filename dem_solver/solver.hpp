@@ -112,7 +112,7 @@ class ParticleSolver {
   std::int64_t unconverged_steps() const noexcept { return unconverged_steps_; }
 
   /// @pre the model's law has a ledger
-  ParticleLedger ledger() const noexcept;
+  ParticleLedger ledger() const;
 
   /// Calls visit(name, value) for every array and number of the state, for checkpoints.
   template <class Self, class Visitor>
@@ -150,6 +150,7 @@ class ParticleSolver {
   LeapfrogStep this_leap() const noexcept { return {gravity_, step_, kick_}; }
   LeapfrogStep last_leap() const noexcept;
   void add_spheres_to(ParticleLedger& ledger) const noexcept;
+  double stored_energy() const;  ///< J; in contacts at the time level of the forces
 
   Spheres spheres_;
   Rocks rocks_;

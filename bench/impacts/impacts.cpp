@@ -235,6 +235,8 @@ void oblique(std::vector<ImpactResult>& rows, int test, const Impact& impact, co
   const double gain = Oblique(impact).impulse(slip) / mass_of(impact.substance, impact.radius);
   add("tangential speed after sticking, m/s", out.tangential_speed, impact.tangential_speed + gain);
   add("R x spin after sticking, m/s", impact.radius * out.spin, impact.radius * impact.spin - 2.5 * gain);
+  rows.back().tolerance *=
+      2.5;  // what the impulse is wrong by turns the sphere 5/2 times as fast as it moves it
 }
 
 void test_3(std::vector<ImpactResult>& rows) {

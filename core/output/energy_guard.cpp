@@ -37,6 +37,7 @@ void EnergyGuard::judge(double time) const {
 }
 
 bool EnergyGuard::exceeds(double error, double share) const {
+  if (balance_.scale() == 0) return false;  // nothing was on the move
   return std::abs(error) > share * balance_.scale() && std::abs(error) > balance_.round_off();
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/errors.hpp"
 #include "core/steps.hpp"
@@ -70,7 +71,16 @@ void ImplicitSolver::start(double time) {
   add_external_force(model_, {}, {.time = time}, state_.force);
   std::vector<double> sum = state_.force;
   add_damping(-1, state_.velocity, sum);
-  state_.acceleration = newton_.accelerations({masses_of_directions(), std::move(sum)}, state_.displacement);
+  state_.acceleration = newton_.accelerations({masses_of_directions(), sum}, state_.displacement);
+  // What supports bear from the start on, so that their first work is booked whole.
+  std::vector<double> needed(sum.size());
+  for (std::size_t i = 0; i < sum.size(); ++i)
+    needed[i] = model_.node_masses[i / 3] * state_.acceleration[i] - sum[i];
+  newton_.slides().carry_over(needed);
+  for_each_support(model_, [&](const Support& support, std::size_t dof, std::size_t offset) {
+    for (std::size_t c = 0; c < 3; ++c)
+      if (support.fixed[c]) state_.reactions[offset + c] = std::exchange(needed[dof + c], 0.0);
+  });
 }
 
 void ImplicitSolver::take_interface_force() {

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "core/errors.hpp"
+
 namespace talus::fem {
 namespace {
 
@@ -83,17 +85,29 @@ double LinearSolver::factorise_shifted(SparseMatrix matrix) {
   const double largest_entry = matrix.diagonal().cwiseAbs().maxCoeff();
   const double largest = largest_entry > 0 ? largest_entry : 1;  // nothing is stiff: any shift is as good
   double shift = 0;
-  for (double next = 1e-8 * largest;; next *= 10) {
+  constexpr double most = 1e8;  // far above what makes any matrix of numbers positive definite
+  for (double next = 1e-8 * largest; next <= most * largest; next *= 10) {
     matrix.diagonal().array() += next - shift;
     shift = next;
     if (factorise(matrix)) return shift;
   }
+  report_no_factor(largest);
+}
+
+void LinearSolver::report_no_factor(double value) const {
+  const bool no_memory = factor_->common.status == CHOLMOD_OUT_OF_MEMORY;
+  throw core::NumericalError(
+      {.what = no_memory ? "there is not enough memory for the factors of the stiffness matrix"
+                         : "the stiffness matrix cannot be factorised, however it is shifted",
+       .entity = "largest entry of its diagonal (N/m)",
+       .value = value});
 }
 
 Eigen::VectorXd LinearSolver::solve(const Eigen::VectorXd& right) const {
   if (right.size() == 0) return right;
   cholmod_dense b = view(right);
   cholmod_dense* x = cholmod_solve(CHOLMOD_A, factor_->factor, &b, &factor_->common);
+  if (x == nullptr) report_no_factor(0);
   Eigen::VectorXd solution = Eigen::VectorXd::Map(static_cast<const double*>(x->x), right.size());
   cholmod_free_dense(&x, &factor_->common);
   return solution;

@@ -26,6 +26,7 @@ class LinearSolver {
   Eigen::VectorXd solve(const Eigen::VectorXd& right) const;
 
  private:
+  [[noreturn]] void report_no_factor(double value) const;
   struct Factor;
   std::unique_ptr<Factor> factor_;
 };

@@ -31,8 +31,9 @@ StaticSolver::StaticSolver(const Model& model, Assembly& assembly, const StaticO
 void StaticSolver::advance(double time, double length) {
   assembly_.start_step();
   reports_.clear();
-  const double end = time + length, smallest = smallest_share_of_step * options_.step;
+  if (steps_ == 0) start(time);
   double share = std::min(length, options_.step);
+  const double end = time + length, smallest = smallest_share_of_step * share;
   for (double now = time; now < end - 0.5 * smallest;) {
     const double next = now + share > end - 0.5 * smallest ? end : now + share;
     const State before = state_;
@@ -54,6 +55,22 @@ void StaticSolver::archive(core::StateArchive& archive) {
   archive.values("reactions", state_.reactions);
   archive_element_memory(archive, model_);
   fem::archive(archive, state_.works);
+}
+
+/// What supports bear before anything has moved, so that their first work is booked whole.
+void StaticSolver::start(double time) {
+  std::vector<double> sum(model_.reference.size());
+  std::ranges::fill(external_, 0.0);
+  add_external_force(model_, interface_, load_time(time, options_.end), external_);
+  residual(state_.displacement, sum);
+  note_reactions(sum);
+}
+
+void StaticSolver::note_reactions(std::span<const double> sum) {
+  for_each_support(model_, [&](const Support& support, std::size_t dof, std::size_t offset) {
+    for (std::size_t c = 0; c < 3; ++c)
+      if (support.fixed[c]) state_.reactions[offset + c] = -sum[dof + c];
+  });
 }
 
 bool StaticSolver::equilibrate(double time) {

@@ -52,6 +52,8 @@ class StaticSolver final : public Integrator {
     ExternalWorks works;  ///< J
     bool operator==(const State&) const = default;
   };
+  void start(double time);
+  void note_reactions(std::span<const double> sum);
   bool equilibrate(double time);
   NewtonSystem system();
   void residual(std::span<const double> displacement, std::span<double> residual);

@@ -114,7 +114,7 @@ output: {{every: 1 ms}}
         refused = self.scene.run(1.1 * limit, 2000).done
         self.assertEqual(refused.returncode, 2)
         self.assertIn("contact spring", refused.stderr)
-        thrown = self.scene.run(1.1 * limit, 2000, "particles: {unstable_step: allowed}")
+        thrown = self.scene.run(1.1 * limit, 2000, "particles: {unstable_step: allowed}\noutput: {energy_error: {error: 1e6}}")
         self.assertGreater(self.height_of_swing(thrown), self.sunk)
 
 

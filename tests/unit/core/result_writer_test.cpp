@@ -80,8 +80,8 @@ TEST_CASE("numbers in the tables read back as the same doubles") {
 }
 
 TEST_CASE(
-    "the energy error is stored plus dissipated minus supplied against the first row, over the largest "
-    "kinetic energy so far") {
+    "the energy error is stored plus dissipated minus supplied against the first row, over what was on the "
+    "move so far: kinetic or supplied, whichever is more") {
   using core::LedgerKind;
   core::LedgerBalance balance({{"a.kinetic_J", LedgerKind::stored},
                                {"a.elastic_J", LedgerKind::stored},
@@ -91,10 +91,11 @@ TEST_CASE(
   CHECK(balance.add(std::vector<double>{10, 7, 1, 11}).error == 0);  // 10 + 1 J came from gravity
   const auto row = balance.add(std::vector<double>{4, 12, 3, 11});   // 4 + 12 + 3 - 11 - 7 = 1 J too much
   CHECK(row.error == 1);
-  CHECK(row.error_relative == 1.0 / 10);
-  balance.add(std::vector<double>{4, 11, 3, 11});
+  CHECK(row.error_relative == 1.0 / 11);
+  balance.add(std::vector<double>{40, 11, 3, 47});
   CHECK(balance.last().error == 0);
   CHECK(balance.largest().error == 1);
+  CHECK(balance.largest().error_relative == 1.0 / 47);  // of the whole run, whatever was known at the time
 }
 
 TEST_CASE("the summary says running until the end, then how the run ended, with peaks and their times") {

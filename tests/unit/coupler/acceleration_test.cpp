@@ -123,3 +123,29 @@ TEST_CASE("relaxation reduces the residual of one linear unknown by 1 - w (1 - a
     CHECK(slope * x[0] + 1 - x[0] == Approx(residual * (1 - factor * (1 - slope))).margin(1e-12));
   }
 }
+
+TEST_CASE(
+    "columns of a window that mislead are dropped: after a change of the problem as few iterations as "
+    "without any") {
+  // Old columns of another problem make the residual grow; from then on only the window's own count.
+  constexpr int unknowns = 8;
+  const auto before = LinearProblem::random(unknowns, 0.9, 21),
+             after = LinearProblem::random(unknowns, 0.9, 22);
+  IqnIls remembers({.most_columns = 50, .reused_windows = 8, .filter = 1e-7}), fresh({.filter = 1e-7});
+  for (int window = 0; window < 5; ++window) iterations(before, remembers, 1e-8, 50);
+  CHECK(iterations(after, remembers, 1e-8, 50) <= iterations(after, fresh, 1e-8, 50) + 2);
+}
+
+TEST_CASE("Aitken does not judge a step that it has not made") {
+  const LinearProblem problem{.a = Eigen::MatrixXd::Constant(1, 1, 0.5),
+                              .b = Eigen::VectorXd::Constant(1, 1.5)};
+  Aitken acceleration(0.25);
+  acceleration.begin_window();
+  std::vector<double> x{0};
+  const auto made = [&] { return std::vector<double>{0.5 * x[0] + 1.5}; };
+  acceleration.update(x, made());
+  x = made();  // nothing touched: the scheme went on without it
+  acceleration.step_aside();
+  acceleration.update(x, made());
+  CHECK(acceleration.factor() == 0.25);  // as at a window's start
+}

@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <limits>
 #include <mutex>
 
 #include "core/errors.hpp"
@@ -357,4 +358,21 @@ TEST_CASE("an impact on a light node that plain iteration cannot compute is resc
   CHECK(peak_of(plain) == Approx(reference.peak).epsilon(0.02));
   CHECK(tally.halved > 0);
   CHECK(tally.most_halvings < 6);
+}
+
+TEST_CASE("a change that is no number is never within what is allowed, whatever field it is in") {
+  const std::vector<double> before{1, 2, 3}, after{1, 2, 3 + 1e-13}, broken{1, std::nan(""), 3},
+      endless{1, std::numeric_limits<double>::infinity(), 3};
+  const Convergence convergence{.relative = 1e-6};
+  const auto judge = [&](std::span<const double> u, std::span<const double> v, std::span<const double> f) {
+    return convergence.judge({FieldChange{FieldName::displacement, before, u},
+                              FieldChange{FieldName::velocity, before, v},
+                              FieldChange{FieldName::force, before, f}});
+  };
+  CHECK(judge(after, after, after).converged());
+  CHECK_FALSE(judge(broken, after, after).converged());
+  CHECK_FALSE(judge(after, broken, after).converged());
+  CHECK_FALSE(judge(after, after, broken).converged());
+  CHECK(judge(broken, after, after).worst == FieldName::displacement);
+  CHECK_FALSE(judge(after, endless, after).converged());
 }

@@ -1,9 +1,13 @@
 #include "coupler/messages/messages.hpp"
 
 #include <catch2/catch.hpp>
+#include <cmath>
+#include <functional>
+#include <limits>
 
 #include "core/errors.hpp"
 #include "coupler/messages/output_arrays.hpp"
+#include "coupler/messages/validate.hpp"
 
 using namespace talus;
 using namespace talus::coupler;
@@ -124,4 +128,114 @@ TEST_CASE("output values of a participant stand side by side and do not overlap"
   CHECK(arrays.table(block, 0).size() == 8);
   CHECK(&arrays.table_rows(block, 1) == block.data() + 41);
   CHECK(arrays.table(block, 1).size() == 1);
+}
+
+namespace {
+
+PublishedSurface good_surface() {
+  PublishedSurface good;
+  good.surface.positions = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+  good.surface.segments = {{0, 1}, {1, 2}};
+  good.surface.triangles = {{0, 1, 2}};
+  good.surface.parts = {{.name = "net", .segment_end = 2, .triangle_end = 1}};
+  good.node_masses = {1, 0, std::numeric_limits<double>::infinity()};
+  return good;
+}
+
+Declaration good_declaration() {
+  Declaration good{.program = "liar 1.0", .step = 1e-4};
+  good.limits = {{.name = "bars", .seconds = 1e-3}};
+  good.outputs.probes = {{"a.displacement_z_m"}};
+  good.outputs.ledger = {{"a.kinetic_J", core::LedgerKind::stored}};
+  good.outputs.groups = {{.name = "net", .kind = core::CellKind::segment, .nodes = 2, .cells = {0, 1}}};
+  good.outputs.groups[0].fields = {{"displacement", "m", 3, core::FieldLocation::node}};
+  good.outputs.tables = {{.name = "gate", .columns = {"time_s"}, .capacity = 4}};
+  return good;
+}
+
+template <class Message>
+struct Lie {
+  const char* told;  ///< in the error
+  std::function<void(Message&)> tell;
+};
+
+}  // namespace
+
+TEST_CASE(
+    "a surface that lies is refused with what is wrong, by the coupler and by the participant's own "
+    "library") {
+  CHECK_NOTHROW(decode_surface(encode(good_surface())));
+  const std::vector<Lie<PublishedSurface>> lies{
+      {"segment 1 has the node 3, but the surface has the nodes 0 to 2",
+       [](auto& p) {
+         p.surface.segments[1] = {1, 3};
+       }},  // counted from 1
+      {"triangle 0 has the node -1", [](auto& p) { p.surface.triangles[0][2] = -1; }},
+      {"segment 0 has the node 1 twice",
+       [](auto& p) {
+         p.surface.segments[0] = {1, 1};
+       }},
+      {"10 coordinates; three a node", [](auto& p) { p.surface.positions.push_back(0); }},
+      {"the position of node 1 is nan", [](auto& p) { p.surface.positions[4] = std::nan(""); }},
+      {"part 'net' has the segments 0 to 3, but there are 2",
+       [](auto& p) { p.surface.parts[0].segment_end = 3; }},
+      {"part 'net' has the triangles 1 to 0",
+       [](auto& p) {
+         p.surface.parts[0].triangle_begin = 1;
+         p.surface.parts[0].triangle_end = 0;
+       }},
+      {"part 'net' has the segments -1", [](auto& p) { p.surface.parts[0].segment_begin = -1; }},
+      {"the wire radius -1 m", [](auto& p) { p.surface.parts[0].wire_radius = -1; }},
+      {"2 node masses for 3 nodes", [](auto& p) { p.node_masses.pop_back(); }},
+      {"node 0 has the mass -1 kg", [](auto& p) { p.node_masses[0] = -1; }},
+      {"node 1 has the mass nan kg", [](auto& p) { p.node_masses[1] = std::nan(""); }}};
+  for (const auto& lie : lies) {
+    PublishedSurface published = good_surface();
+    lie.tell(published);
+    CAPTURE(lie.told);
+    CHECK_THROWS_WITH(validate(published), Contains(lie.told));
+    CHECK_THROWS_WITH(decode_surface(encode(published), "structure (liar, pid 7)"),
+                      Contains("structure (liar, pid 7) said what cannot be") && Contains(lie.told));
+  }
+}
+
+TEST_CASE("a declaration that lies is refused with what is wrong") {
+  CHECK_NOTHROW(decode_declaration(encode(good_declaration())));
+  const auto kind = [](auto& to, int number) { to = static_cast<std::decay_t<decltype(to)>>(number); };
+  const std::vector<Lie<Declaration>> lies{
+      {"the step is -1 s", [](auto& d) { d.step = -1; }},
+      {"the step is nan s", [](auto& d) { d.step = std::nan(""); }},
+      {"the step limit 'bars' is 0 s", [](auto& d) { d.limits[0].seconds = 0; }},
+      {"the step limit 'bars' is nan s", [](auto& d) { d.limits[0].seconds = std::nan(""); }},
+      {"the use of forces has the unknown number 9", [&](auto& d) { kind(d.force_use, 9); }},
+      {"the name of a probe is ''", [](auto& d) { d.outputs.probes[0].name = ""; }},
+      {"the name of a probe is 'a,b'", [](auto& d) { d.outputs.probes[0].name = "a,b"; }},
+      {"the name 'a.kinetic_J' is given twice", [](auto& d) { d.outputs.probes[0].name = "a.kinetic_J"; }},
+      {"ledger line 'a.kinetic_J' has the unknown kind 7",
+       [&](auto& d) { kind(d.outputs.ledger[0].kind, 7); }},
+      {"group 'net' has the unknown kind 0", [&](auto& d) { kind(d.outputs.groups[0].kind, 0); }},
+      {"the name of a group of field output is '../../etc'",
+       [](auto& d) { d.outputs.groups[0].name = "../../etc"; }},
+      {"group 'net' has -1 nodes", [](auto& d) { d.outputs.groups[0].nodes = -1; }},
+      {"group 'net' has 3 node numbers for cells of 2 nodes",
+       [](auto& d) { d.outputs.groups[0].cells.push_back(0); }},
+      {"a cell of group 'net' has the node 2, but there are 2",
+       [](auto& d) { d.outputs.groups[0].cells[1] = 2; }},
+      {"field 'displacement' of group 'net' has 0 components",
+       [](auto& d) { d.outputs.groups[0].fields[0].components = 0; }},
+      {"field 'displacement' has the unknown kind 5",
+       [&](auto& d) { kind(d.outputs.groups[0].fields[0].location, 5); }},
+      {"the name of a table is '../gate'", [](auto& d) { d.outputs.tables[0].name = "../gate"; }},
+      {"table 'gate' has no columns", [](auto& d) { d.outputs.tables[0].columns.clear(); }},
+      {"table 'gate' is to hold -4 rows", [](auto& d) { d.outputs.tables[0].capacity = -4; }},
+      {"table 'gate' is to hold 4611686018427387904 rows",
+       [](auto& d) { d.outputs.tables[0].capacity = std::int64_t{1} << 62; }}};
+  for (const auto& lie : lies) {
+    Declaration declaration = good_declaration();
+    lie.tell(declaration);
+    CAPTURE(lie.told);
+    CHECK_THROWS_WITH(validate(declaration), Contains(lie.told));
+    CHECK_THROWS_WITH(decode_declaration(encode(declaration), "structure (liar, pid 7)"),
+                      Contains("structure (liar, pid 7) said what cannot be") && Contains(lie.told));
+  }
 }

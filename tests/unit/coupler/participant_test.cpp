@@ -2,11 +2,14 @@
 
 #include <catch2/catch.hpp>
 #include <chrono>
+#include <limits>
 #include <thread>
 
 #include "core/errors.hpp"
 #include "coupler/channel_participant.hpp"
+#include "coupler/schemes/serial_explicit.hpp"
 #include "coupler/session/introduction.hpp"
+#include "tests/support/coupled_pair.hpp"
 #include "tests/support/in_process.hpp"
 #include "tests/support/two_masses.hpp"
 
@@ -130,7 +133,7 @@ TEST_CASE("a coupler that is busy for longer than a participant's patience is no
     // Two beats of the coupler fall into its patience.
     ChannelParticipant p(coupler.segment, {.segment = "", .role = Role::structure, .timeout = 1});
     try {
-      p.publish_surface(test::one_node(), std::array{1.0});
+      p.publish_surface({}, {});
       p.declare({.program = "test"});
       p.next();
     } catch (const std::exception& error) {
@@ -160,4 +163,40 @@ TEST_CASE("a participant is told why the coupler ends the run") {
   coupler->introduce_all();
   coupler->session.abort("the disk is full");
   CHECK_THAT(message, Contains("ended the run: the disk is full"));
+}
+
+TEST_CASE(
+    "a value that is no number is refused where it is handed over, and named with side, field, node and "
+    "window") {
+  const double bad =
+      GENERATE(std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity());
+  const bool of_structure = GENERATE(true, false);
+  constexpr std::int64_t fault = 3;
+  const auto serve = [&](Participant& p, bool is_structure) {
+    for (auto command = p.next(); command.action != Action::finish; command = p.next()) {
+      if (command.action == Action::advance && command.window == fault && is_structure == of_structure)
+        (is_structure ? p.structure_fields().velocity : p.particle_fields().force)[2] = bad;
+      p.answer();
+    }
+  };
+  test::CoupledPair pair(
+      [&](Participant& p) {
+        p.publish_surface(test::one_node(), std::array{1.0});
+        p.declare({.program = "test"});
+        serve(p, true);
+      },
+      [&](Participant& p) {
+        std::vector<double> masses;
+        p.receive_surface(masses);
+        p.declare({.program = "test"});
+        serve(p, false);
+      },
+      {1e-3}, Order::in_turn);
+  const auto run = [&] {
+    for (int n = 0; n < 10; ++n) SerialExplicit{}.compute(pair.exchange(), {.index = n, .unit = 1e-3});
+  };
+  CHECK_THROWS_WITH(run(), Contains(of_structure ? "the structure handed over a value that is not finite"
+                                                 : "the particles handed over a value that is not finite") &&
+                               Contains(of_structure ? "z velocity of node 0" : "z force of node 0") &&
+                               Contains("in window 3"));
 }

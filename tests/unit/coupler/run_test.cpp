@@ -85,7 +85,7 @@ TEST_CASE("scenes the coupler cannot run are refused with the reason") {
   CHECK(complaints_about("time: {end: 1 s, step: 1 ms}\nstructure: {}\n"
                          "interface: {structure: [net], boundary: {same_as_structure: {}}}\n") ==
         Texts{"s.yaml: interface: needs both a structure and particles, but the scene has only one of them"});
-  CHECK(complaints_about("time: {end: 1 s}\nstructure: {}\n") ==
+  CHECK(complaints_about("time: {end: 1 s}\nstructure: {}\nparticles: {}\n") ==
         Texts{"s.yaml: time.step: is missing, and so is 'coupling.window'"});
   CHECK(complaints_about(sides + "coupling: {timeout: -1 s}\n").size() == 1);
   CHECK(complaints_about(sides + "coupling: {join_timeout: 0 s, window: 0 s}\n").size() == 2);
@@ -137,6 +137,7 @@ TEST_CASE("windows that grow and windows that are halved are read, and lengths t
 
 TEST_CASE("the shortest and the longest window are counted in regular ones") {
   CoupledScene scene;
+  scene.time.end = 0.3;
   scene.coupling.window = 0.3e-3;
   CHECK(scene.longest_window() == 1);
   CHECK(scene.most_halvings() == 0);

@@ -1,5 +1,6 @@
 #include "fem_solver/integration/implicit_solver.hpp"
 
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -124,4 +125,58 @@ TEST_CASE("an implicit run closes its energy balance with loads, gravity, dampin
   for (const auto line : {&EnergyBalance::gravity, &EnergyBalance::bulk_damping, &EnergyBalance::loads,
                           &EnergyBalance::supports})
     CHECK(largest.*line > 0.1 * largest_kinetic);
+}
+
+namespace {
+
+/// A mass on a bar along x, which an interface can push: node 1 of the oscillator.
+struct PushedMass {
+  Model model = tests::oscillator();
+  double mass = 7850 * 1e-4 / 2, stiffness = 2e11 * 1e-4, step = 0;
+  Assembly assembly{model};
+  ImplicitSolver solver;
+  PushedMass(double radius, double share_of_period)
+      : step(share_of_period * 2 * M_PI / std::sqrt(stiffness / mass)),
+        solver(model, assembly, {.step = step, .spectral_radius = radius, .newton = {.tolerance = 1e-14}}) {
+    solver.interface() = InterfaceForce({1});
+  }
+  void push(double force, int window) {
+    const std::array<double, 3> on_node{force, 0, 0};
+    solver.interface().set(on_node);
+    solver.advance(window * step, step);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("a load that sets in acts whole in its first step") {
+  // The trapezoidal rule under a constant force: u1 = (F h^2/2m)/(1 + k h^2/4m).
+  PushedMass pushed(1, 0.1);
+  constexpr double force = 1;  // N; small enough for the bar to be linear to 1e-7
+  pushed.push(force, 0);
+  const double h = pushed.step, m = pushed.mass, k = pushed.stiffness;
+  CHECK(pushed.solver.displacement()[3] ==
+        Approx(force * h * h / (2 * m) / (1 + k * h * h / (4 * m))).epsilon(1e-6));
+}
+
+TEST_CASE(
+    "the work of interface forces is what the structure gains, whichever way they change from window to "
+    "window") {
+  PushedMass pushed(1, 0.1);
+  double scale = 0;
+  for (int window = 0; window < 40; ++window) {
+    pushed.push(window % 3 == 0 ? 2.0 : window % 7 == 0 ? -5.0 : 1.0, window);
+    const EnergyBalance balance = pushed.solver.balance();
+    const double stored = balance.kinetic + balance.elastic[0];
+    scale = std::max(scale, stored);
+    // The bar is linear but for its strain, 1e-8: so is the trapezoidal rule exact for its energy.
+    CHECK(stored == Approx(balance.interface).margin(1e-7 * scale));
+  }
+}
+
+TEST_CASE("a constant interface force leads to its static answer whatever the spectral radius") {
+  const double radius = GENERATE(0.0, 0.5, 0.9);
+  PushedMass pushed(radius, 3);
+  for (int window = 0; window < 400; ++window) pushed.push(1, window);
+  CHECK(pushed.solver.displacement()[3] == Approx(1 / pushed.stiffness).epsilon(1e-4));
 }
