@@ -19,7 +19,7 @@ void check_probes(const RunScene& scene, const core::SceneFile& file, core::Scen
   for (const auto& [name, rock] : scene.particles.rocks) names.push_back(name);
   if (!scene.output) return;
   for (const auto& [name, probe] : scene.output->probes) {
-    const auto complain = [&](const char* key, const std::string& message) {
+    const auto complain = [&, &name = name](const char* key, const std::string& message) {
       reader.complain({.file = file.path().string(),
                        .key_path = fmt::format("output.probes.{}{}", name, key),
                        .message = message});

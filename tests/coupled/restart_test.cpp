@@ -152,7 +152,7 @@ TEST_CASE("the checkpoint before the last is kept, and a run can go on from it, 
 
 TEST_CASE("a restart names the keys of a scene that changed, and refuses a state that it would ignore") {
   const Example example(rock_on_net);
-  example.stop("stopped", SIGINT, std::chrono::milliseconds(0));
+  example.stop("stopped", SIGINT, std::chrono::milliseconds(20));
   SECTION("a density") {
     example.change("particles: {materials: {rock: {density: 2600 kg/m^3}}}");
     const auto end = example.start("restarted", "stopped")->wait();

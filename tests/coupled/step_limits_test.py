@@ -82,6 +82,8 @@ class StructureLimits(unittest.TestCase):
                 self.assertGreater(energy_error(scene.run(1.1 * limit, 2000, "structure: {unstable_step: allowed}")), 100)
 
 
+# Stable is not accurate: such runs would end as failed by their energy balance.
+INACCURATE = "output: {energy_error: {error: 1e6}}"
 STONE = "{density: 2500 kg/m^3, youngs_modulus: 1e8 Pa, poissons_ratio: 0.2}"
 GROUND = "{youngs_modulus: 1e8 Pa, poissons_ratio: 0.2}"
 
@@ -114,7 +116,7 @@ output: {{every: 1 ms}}
         refused = self.scene.run(1.1 * limit, 2000).done
         self.assertEqual(refused.returncode, 2)
         self.assertIn("contact spring", refused.stderr)
-        thrown = self.scene.run(1.1 * limit, 2000, "particles: {unstable_step: allowed}\noutput: {energy_error: {error: 1e6}}")
+        thrown = self.scene.run(1.1 * limit, 2000, f"particles: {{unstable_step: allowed}}\n{INACCURATE}")
         self.assertGreater(self.height_of_swing(thrown), self.sunk)
 
 
@@ -220,11 +222,11 @@ coupling: {{serial_explicit: {{}}}}
         limit = self.scene.limits()["contact spring on boundary nodes"]
         node = 7850 * self.area / 2  # kg; half of the post
         self.assertAlmostEqual(limit * math.sqrt(self.stiffness / node), 2, places=6)
-        self.assertGreater(self.scene.run(0.95 * limit, 500).column("stone.contact_force_z_N")[1:].min(), 0)
+        self.assertGreater(self.scene.run(0.95 * limit, 500, INACCURATE).column("stone.contact_force_z_N")[1:].min(), 0)
         refused = self.scene.run(1.1 * limit, 500).done
         self.assertEqual(refused.returncode, 2)
         self.assertIn("contact spring on boundary nodes", refused.stderr)
-        thrown = self.scene.run(1.1 * limit, 500, "particles: {unstable_step: allowed}")
+        thrown = self.scene.run(1.1 * limit, 500, f"particles: {{unstable_step: allowed}}\n{INACCURATE}")
         self.assertEqual(thrown.column("stone.contact_force_z_N")[1:].min(), 0)
 
 
