@@ -79,6 +79,7 @@ coupler::Declaration declaration_from(const talus_declaration& said) {
   declaration.program = said.program;
   declaration.step = said.step;
   declaration.checkpoints = said.checkpoints != 0;
+  declaration.force_use = said.force_is_load != 0 ? coupler::ForceUse::load : coupler::ForceUse::kicks;
   if (said.stable_step > 0) {
     declaration.limits = {
         {.name = "largest stable step", .seconds = said.stable_step, .reason = "named by the program"}};
@@ -129,6 +130,7 @@ talus_result talus_next(talus_participant* participant, talus_command* command) 
                       .iteration = next.iteration,
                       .time = next.time,
                       .length = next.length,
+                      .force_shift = next.force_shift,
                       .path = self.path.c_str()};
   });
 }

@@ -46,7 +46,9 @@ typedef struct {
   int32_t iteration; /* of a strong scheme, from 0 */
   double time;       /* s; the start of the window */
   double length;     /* s; of the window */
-  const char* path;  /* of a checkpoint; valid until the next talus_next() */
+  double
+      force_shift; /* s; advance of particles: how much earlier than the window the mean of the forces is wanted */
+  const char* path; /* of a checkpoint; valid until the next talus_next() */
 } talus_command;
 
 typedef struct {
@@ -66,21 +68,24 @@ typedef struct {
   int64_t probes;           /* columns of probes.csv */
   const char** probe_names; /* "middle.displacement_z_m" */
   int checkpoints;          /* 1: it answers TALUS_WRITE_CHECKPOINT and TALUS_READ_CHECKPOINT */
+  int force_is_load; /* structure; 1: the force is a load over the window (implicit methods); 0: it kicks at
+                               the start of each step (leapfrog) */
 } talus_declaration;
 
 typedef struct {
-  const double* force;  /* N; mean over the window */
+  const double* force; /* N; mean over the window; of a leapfrog, over the window moved back by half a step */
   double* displacement; /* m; the present state at every answer */
   double* velocity;     /* m/s; likewise (explicit leapfrog: half a step before) */
 } talus_structure_fields;
 
-/* The end arrays are NULL for a participant that takes one step a window. */
+/* The end arrays are NULL where both sides take one step a window and none needs the other's end. */
 typedef struct {
   const double* start_displacement; /* m; of the boundary at the window's start */
   const double* start_velocity;     /* m/s */
   const double* end_displacement;   /* m */
   const double* end_velocity;       /* m/s */
-  double* force;                    /* N; that the boundary receives, mean over the window */
+  double*
+      force; /* N; that the boundary receives, mean over the window moved back by the command's force_shift */
 } talus_particle_fields;
 
 /* Before time 0, in this order. `segment` is the text after --join. */

@@ -223,7 +223,7 @@ core::ExitCode run_prepared(PreparedRun& run, const RunRequest& request) {
   for (const auto& warning : warnings_of(run.limits)) core::log_warning(warning);
   if (const auto words = core::words_about_length("window", run.scene.time.end, run.scene.named_window());
       !words.empty())
-    core::log_info(words);
+    core::log_warning(words);
   add_facts(results.summary(), run);
   if (restart)
     continue_result(results, request, static_cast<double>(restart->window()) * plan.span.window_length);

@@ -107,7 +107,7 @@ core::ExitCode run_standalone(const core::SolverCommand& command) {
                               .energy_error = scene.output.value_or(core::OutputScene{}).energy_error()},
                              {&run.output});
   if (const auto words = core::words_about_length("step", scene.time.end, *own_step(scene)); !words.empty())
-    core::log_info(words);
+    core::log_warning(words);
   core::Progress progress(command.run.progress, "steps");
   try {
     const core::RunStatus status = advance(run, scene, results, progress);

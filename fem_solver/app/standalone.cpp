@@ -103,7 +103,7 @@ core::ExitCode run_standalone(const core::SolverCommand& command) {
   core::ResultWriter results(writer_options(command, file, scene), {&structure.output()});
   report_limits(structure, results);
   if (const auto words = core::words_about_length("step", scene.time.end, structure.step()); !words.empty())
-    core::log_info(words);
+    core::log_warning(words);
   core::Progress progress(command.run.progress, "steps");
   try {
     const bool finished = run_steps(structure, scene, results, progress);

@@ -86,3 +86,5 @@ class Declaration:
     ledger: Sequence[LedgerLine] = ()
     groups: Sequence[Group] = ()
     checkpoints: bool = False  #: it answers write_checkpoint and read_checkpoint
+    #: structure; True: the force is a load over the window (implicit methods); False: it kicks at the start of each step (leapfrog)
+    force_is_load: bool = False

@@ -117,6 +117,8 @@ coupler::Declaration declaration_from(const py::object& declaration) {
   return {.program = declaration.attr("program").cast<std::string>(),
           .step = declaration.attr("step").cast<double>(),
           .checkpoints = declaration.attr("checkpoints").cast<bool>(),
+          .force_use = declaration.attr("force_is_load").cast<bool>() ? coupler::ForceUse::load
+                                                                      : coupler::ForceUse::kicks,
           .limits = each(declaration.attr("limits"), limit_from),
           .effects = each(declaration.attr("effects"), effect_from),
           .outputs = {.probes = each(declaration.attr("probes"), probe_from),
