@@ -113,8 +113,9 @@ void bind_command(py::module_& module) {
       .def_readonly("iteration", &Command::iteration, "of a strong scheme, from 0")
       .def_readonly("time", &Command::time, "s; the start of the window")
       .def_readonly("length", &Command::length, "s; of the window")
-      .def_readonly("force_shift", &Command::force_shift,
-                    "s; advance of particles: how much earlier than the window the mean of the forces is wanted")
+      .def_readonly(
+          "force_shift", &Command::force_shift,
+          "s; advance of particles: how much earlier than the window the mean of the forces is wanted")
       .def_readonly("path", &Command::path, "of a checkpoint");
 }
 
