@@ -237,7 +237,7 @@ TEST_CASE("a Python participant that hangs is named after the timeout, and is go
     run.compute(0);
     run.compute(1);
     pid = static_cast<int>(run.structure().channel().pid);
-    CHECK_THROWS_WITH(run.compute(2), Catch::Contains("gave no answer for 1 s (stuck: sleeps, 0 % CPU)") &&
+    CHECK_THROWS_WITH(run.compute(2), Catch::Contains("gave no answer for 1 s (stuck: sleeps, ") &&
                                           Catch::Contains("window 2"));
   }
   CHECK_FALSE(test::exists(pid));

@@ -53,7 +53,7 @@ TEST_CASE("a solver that does not answer is named after the timeout, and whether
   CHECK_THAT(end.output, Contains("structure (dummy_structure, pid ") &&
                              Contains("gave no answer for 2 s (") &&
                              Contains(how == "busy"     ? " s (computing, "
-                                      : how == "asleep" ? " s (stuck: sleeps, 0 % CPU)"
+                                      : how == "asleep" ? " s (stuck: sleeps, "
                                                         : " s (is stopped)") &&
                              Contains("in window 20"));
 }
