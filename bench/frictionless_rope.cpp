@@ -35,7 +35,10 @@ double sum_of_forces() {
     for (const Element& part : parts) {
       std::visit(
           [&](const auto& batch) {
-            batch.internal_force(displacement, slots, {0, batch.size()});
+            if constexpr (Remembers<std::decay_t<decltype(batch)>>)
+              batch.internal_force(displacement, {}, slots, {0, batch.size()});
+            else
+              batch.internal_force(displacement, slots, {0, batch.size()});
           },
           part);
       sum += slots[3];

@@ -64,7 +64,7 @@ void add_effects_of_part(std::vector<StructuralEffect>& effects, const std::stri
     add("tension field", ".membrane.tension_field", sheet->tension_field.has_value()).limit = compression;
   if (std::holds_alternative<BarScene>(element)) add("slackness", ".cable", false).limit = compression;
   if (const auto* rope = std::get_if<SlidingCableScene>(&element))
-    add("friction", ".sliding_cable.friction", rope->friction.has_value());  // it may hold, without any work
+    add("friction", ".sliding_cable.friction", rope->has_friction());  // it may hold, without any work
   if (std::holds_alternative<ElasticPlasticCableScene>(element))
     dissipating("yielding", ".elastic_plastic_cable");
   if (std::holds_alternative<BrakeScene>(element)) dissipating("braking", ".brake");

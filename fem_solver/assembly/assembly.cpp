@@ -42,6 +42,11 @@ Assembly::Assembly(const Model& model) : model_(model) {
         static_cast<std::size_t>(std::visit([](const auto& batch) { return batch.slots(); }, part.elements));
   }
   slots_.resize(3 * slots);
+  next_memory_ = initial_memory(model);
+  memory_begin_.push_back(0);
+  for (const auto& part : model.parts)
+    memory_begin_.push_back(memory_begin_.back() +
+                            std::visit([](const auto& batch) { return memory_size_of(batch); }, part.elements));
 
   const auto run_of = [](Index node, int sign) { return 2 * static_cast<std::size_t>(node) + (sign < 0); };
   incidence_begin_.assign(2 * static_cast<std::size_t>(model.nodes()) + 1, 0);
@@ -59,14 +64,17 @@ std::span<double> Assembly::slots_of(std::size_t part) noexcept {
   return std::span(slots_).subspan(3 * slot_begin_[part]);
 }
 
-/// compute(batch, its slots, range of elements) for every part.
+/// compute(batch, its configuration, what it remembers next, its slots, range of elements) for every part.
 template <class Compute>
-void Assembly::compute_slots(const Compute& compute) noexcept {
+void Assembly::compute_slots(const Configuration& at, const Compute& compute) noexcept {
   for (std::size_t p = 0; p < model_.parts.size(); ++p) {
+    const std::size_t begin = memory_begin_[p], size = memory_begin_[p + 1] - begin;
+    const Configuration own(at.displacement, at.memory.empty() ? at.memory : at.memory.subspan(begin, size));
+    const auto next = std::span(next_memory_).subspan(begin, size);
     std::visit(
         [&](const auto& batch) {
           core::parallel_blocks(batch.size(), [&](core::Block elements, std::int64_t) {
-            compute(batch, slots_of(p), elements);
+            compute(batch, own, next, slots_of(p), elements);
           });
         },
         model_.parts[p].elements);
@@ -74,27 +82,33 @@ void Assembly::compute_slots(const Compute& compute) noexcept {
   }
 }
 
-void Assembly::internal_force(std::span<const double> displacement, std::span<double> force) noexcept {
+void Assembly::internal_force(const Configuration& at, std::span<double> force) noexcept {
   start_step();  // whoever asks out of a step does not have the time before counted
-  compute_slots([&](const auto& batch, std::span<double> slots, core::Block elements) {
-    batch.internal_force(displacement, slots, elements);
+  compute_slots(at, [](const auto& batch, const Configuration& own, std::span<double> next,
+                       std::span<double> slots, core::Block elements) {
+    if constexpr (Remembers<std::decay_t<decltype(batch)>>)
+      batch.internal_force(own, next, slots, elements);
+    else
+      batch.internal_force(own, slots, elements);
   });
   gather(-1, force);
   lap(StepStage::sum_at_nodes);
 }
 
-void Assembly::stiffness_product(std::span<const double> displacement, std::span<const double> direction,
+void Assembly::stiffness_product(const Configuration& at, std::span<const double> direction,
                                  std::span<double> product) noexcept {
-  compute_slots([&](const auto& batch, std::span<double> slots, core::Block elements) {
-    batch.stiffness_product(displacement, direction, slots, elements);
+  compute_slots(at, [&](const auto& batch, const Configuration& own, std::span<double>,
+                        std::span<double> slots, core::Block elements) {
+    batch.stiffness_product(own, direction, slots, elements);
   });
   gather(1, product);
 }
 
-void Assembly::stiffest_product(std::span<const double> displacement, std::span<const double> direction,
+void Assembly::stiffest_product(const Configuration& at, std::span<const double> direction,
                                 std::span<double> product) noexcept {
-  compute_slots([&](const auto& batch, std::span<double> slots, core::Block elements) {
-    batch.stiffest_product(displacement, direction, slots, elements);
+  compute_slots(at, [&](const auto& batch, const Configuration& own, std::span<double>,
+                        std::span<double> slots, core::Block elements) {
+    batch.stiffest_product(own, direction, slots, elements);
   });
   gather(1, product);
 }

@@ -21,13 +21,15 @@ class Assembly {
   /// @pre model outlives the assembly and its parts are not changed
   explicit Assembly(const Model& model);
 
-  /// force = -dU/du at every node. All spans 3 a node; displacement in m, force in N.
-  void internal_force(std::span<const double> displacement, std::span<double> force) noexcept;
+  /// force = -dU/du at every node. All spans 3 a node; force in N.
+  void internal_force(const Configuration& at, std::span<double> force) noexcept;
+  /// What elements remember if the state of the last internal_force() is accepted.
+  std::span<const double> next_memory() const noexcept { return next_memory_; }
   /// product = (d2U/du2) direction at every node.
-  void stiffness_product(std::span<const double> displacement, std::span<const double> direction,
+  void stiffness_product(const Configuration& at, std::span<const double> direction,
                          std::span<double> product) noexcept;
   /// The same with everything taut that can be, for step limits.
-  void stiffest_product(std::span<const double> displacement, std::span<const double> direction,
+  void stiffest_product(const Configuration& at, std::span<const double> direction,
                         std::span<double> product) noexcept;
 
   /// The largest component of any element's force in the last internal_force (N).
@@ -46,13 +48,15 @@ class Assembly {
 
  private:
   template <class Compute>
-  void compute_slots(const Compute& compute) noexcept;
+  void compute_slots(const Configuration& at, const Compute& compute) noexcept;
   std::span<double> slots_of(std::size_t part) noexcept;
   void gather(double factor, std::span<double> sums) const noexcept;
 
   const Model& model_;
   std::vector<std::size_t> slot_begin_;  ///< of each part
   std::vector<double> slots_;            ///< 3 a slot
+  std::vector<std::size_t> memory_begin_;  ///< of each part, and the end
+  std::vector<double> next_memory_;
   std::vector<Index> incidence_begin_;  ///< of each node's slots, then of those it feels negated; and the end
   std::vector<Index> incidence_;        ///< first value of the slot
   core::StageClock* clock_ = nullptr;   ///< nullptr: nobody asks for times

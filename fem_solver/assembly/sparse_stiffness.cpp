@@ -6,9 +6,10 @@ namespace talus::fem {
 namespace {
 
 template <class Sink>
-void for_each_block(const Model& model, std::span<const double> displacement, const Sink& sink) {
-  for (const auto& part : model.parts)
-    std::visit([&](const auto& batch) { batch.stiffness(displacement, sink); }, part.elements);
+void for_each_block(const Model& model, const Configuration& at, const Sink& sink) {
+  for_each_part(model, at, [&](std::size_t, const auto& batch, const Configuration& own) {
+    batch.stiffness(own, sink);
+  });
 }
 
 /// visit(row direction, column direction, number) of a block's nine numbers.
@@ -73,12 +74,12 @@ SparseStiffness::SparseStiffness(const Model& model, const Equations& equations)
   for (Index k = 0; k < equations.count(); ++k) diagonal_place_.push_back(place_of(k, k));
 }
 
-const SparseMatrix& SparseStiffness::assemble(std::span<const double> displacement, double factor,
+const SparseMatrix& SparseStiffness::assemble(const Configuration& at, double factor,
                                               std::span<const double> diagonal) {
   double* values = matrix_.valuePtr();
   std::fill(values, values + matrix_.nonZeros(), 0.0);
   std::size_t next = 0;
-  for_each_block(model_, displacement, [&](Index row, Index column, const Matrix3& block) {
+  for_each_block(model_, at, [&](Index row, Index column, const Matrix3& block) {
     for_each_number(row, column, block, [&](std::size_t i, std::size_t j, double number) {
       const Index place = place_[next++];
       if (place >= 0) values[place] += (i == j ? factor : 0.5 * factor) * number;

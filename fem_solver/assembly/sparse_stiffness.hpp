@@ -37,7 +37,7 @@ class SparseStiffness {
   SparseStiffness(const Model& model, const Equations& equations);
 
   /// factor * d2U/du2 + diagonal. @param diagonal one a direction, 3 a node
-  const SparseMatrix& assemble(std::span<const double> displacement, double factor,
+  const SparseMatrix& assemble(const Configuration& at, double factor,
                                std::span<const double> diagonal);
 
  private:

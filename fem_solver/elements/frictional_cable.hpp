@@ -1,7 +1,9 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cmath>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "fem_solver/elements/rope_friction.hpp"
@@ -15,30 +17,27 @@ namespace talus::fem {
 ///     N_i = N(l_i/M_i)     f_k = N_(k-1) t_(k-1) - N_k t_k     U = sum M_i u(l_i/M_i)
 ///
 /// The material M is the history: settle() moves it from what the step began with to what the present
-/// positions ask for, and the force follows from it. Friction makes the derivative of that force,
-/// `stiffness`, unsymmetric. With the material held (nothing slips) the rope is as stiff as it can be, and
-/// its stiffness symmetric: `held_stiffness_product`, for step limits. Proven by (elements_friction.cpp):
-/// "the stiffness of a frictional cable is the derivative of its settled force".
+/// positions ask for, and the force follows from it. Each inner node has its own friction, infinite where the
+/// rope is clamped. Friction makes the derivative of that force, `stiffness`, unsymmetric. With the material held
+/// (nothing slips) the rope is as stiff as it can be, and its stiffness symmetric: `held_stiffness_product`, for
+/// step limits. Proven by (elements_friction.cpp): "the stiffness of a frictional cable is the derivative of its
+/// settled force".
 class FrictionalCable {
  public:
   struct Properties {
     RopeLaw law;
-    double friction = 0;  ///< mu of the capstan equation, > 0
-    double gap = 0;       ///< m
+    std::vector<double> friction;  ///< mu of the capstan equation at each inner node; infinite: clamped
+    double gap = 0;                ///< m
   };
-  FrictionalCable(const Properties& properties, std::size_t segments)
-      : properties_(properties), friction_(segments), lengths_(segments), grips_(segments - 1) {}
+  explicit FrictionalCable(Properties properties) : properties_(std::move(properties)) {}
 
   /// Finds `material` for the current chords from the material at the step's start (m).
-  /// @return false where it did not converge
+  /// @return false where a chord or material is not finite
   template <class Chords>
-  bool settle(const Chords& chords, std::span<const double> old_material,
-              std::span<double> material) noexcept {
-    measure(chords);
-    return friction_.settle(properties_.law, {lengths_, grips_}, old_material, material);
+  bool settle(const Chords& chords, std::span<const double> old_material, std::span<double> material) const {
+    Workspace& space = measured(chords);
+    return space.friction.settle(properties_.law, space.state(), old_material, material);
   }
-  /// Of the last settle(): unstretched length that passed each inner node towards the next segment (m).
-  std::span<const double> slips() const noexcept { return friction_.slips(); }
 
   template <class Chords>
   double energy(const Chords& chords, std::span<const double> material) const noexcept {
@@ -77,12 +76,13 @@ class FrictionalCable {
   }
 
   /// sink(i, j, block): derivative of segment i's settled force with respect to chord j. Every pair once;
-  /// allocates.
-  /// @pre the last settle() was at these chords and gave this material
+  /// allocates. @param old_material at the step's start (m)
   template <class Chords, class Sink>
-  void stiffness(const Chords& chords, std::span<const double> material, const Sink& sink) {
+  void stiffness(const Chords& chords, std::span<const double> old_material, const Sink& sink) const {
     const std::size_t m = chords.size();
-    measure(chords);
+    std::vector<double> material(m);
+    settle(chords, old_material, material);
+    Workspace& space = workspace();
     std::vector<double> length_changes(m), grip_changes(m - 1), tension_changes(m);
     for (std::size_t j = 0; j < m; ++j) {
       std::vector<Matrix3> blocks(m, Matrix3::Zero());
@@ -92,11 +92,11 @@ class FrictionalCable {
         length_changes[j] = RopeSegment(chords(j), properties_.gap).direction[axis];
         if (j > 0)
           grip_changes[j - 1] =
-              grips_[j - 1] * properties_.friction * wrap_slope(chords(j), chords(j - 1))[axis];
+              grip_slope(space, j - 1) * wrap_slope(chords(j), chords(j - 1))[axis];
         if (j + 1 < m)
-          grip_changes[j] = grips_[j] * properties_.friction * wrap_slope(chords(j), chords(j + 1))[axis];
-        friction_.tension_changes(properties_.law, {lengths_, grips_}, material,
-                                  {length_changes, grip_changes}, tension_changes);
+          grip_changes[j] = grip_slope(space, j) * wrap_slope(chords(j), chords(j + 1))[axis];
+        space.friction.tension_changes(properties_.law, space.state(), material,
+                                       {length_changes, grip_changes}, tension_changes);
         for (std::size_t i = 0; i < m; ++i)
           blocks[i].col(axis) = tension_changes[i] * RopeSegment(chords(i), properties_.gap).direction;
       }
@@ -108,11 +108,36 @@ class FrictionalCable {
  private:
   double length(const Vector3& chord) const noexcept { return RopeSegment(chord, properties_.gap).length; }
 
+  /// What one answer needs besides the state; the same memory for all ropes of a thread.
+  struct Workspace {
+    RopeFriction friction;
+    std::vector<double> lengths, grips;  ///< m, 1
+    RopeState state() const noexcept { return {lengths, grips}; }
+  };
+  static Workspace& workspace() {
+    thread_local Workspace space;
+    return space;
+  }
   template <class Chords>
-  void measure(const Chords& chords) noexcept {
-    for (std::size_t i = 0; i < chords.size(); ++i) lengths_[i] = length(chords(i));
-    for (std::size_t k = 0; k + 1 < chords.size(); ++k)
-      grips_[k] = std::exp(properties_.friction * wrap_angle(chords(k), chords(k + 1)));
+  Workspace& measured(const Chords& chords) const {
+    Workspace& space = workspace();
+    const std::size_t m = chords.size();
+    space.friction.resize(m);
+    space.lengths.resize(m);
+    space.grips.resize(m - 1);
+    for (std::size_t i = 0; i < m; ++i) space.lengths[i] = length(chords(i));
+    for (std::size_t k = 0; k + 1 < m; ++k) space.grips[k] = grip(k, wrap_angle(chords(k), chords(k + 1)));
+    return space;
+  }
+  /// A clamped node holds a straight rope too.
+  double grip(std::size_t node, double angle) const noexcept {
+    const double mu = properties_.friction[node];
+    return std::isinf(mu) ? mu : std::exp(mu * angle);
+  }
+  /// d grip/d angle; a clamped node has none that counts, as it never slips.
+  double grip_slope(const Workspace& space, std::size_t node) const noexcept {
+    const double mu = properties_.friction[node];
+    return std::isinf(mu) ? 0 : space.grips[node] * mu;
   }
   /// Angle between two chords, 0 to pi; exact for small angles too.
   static double wrap_angle(const Vector3& near, const Vector3& far) noexcept {
@@ -127,8 +152,6 @@ class FrictionalCable {
   }
 
   Properties properties_;
-  RopeFriction friction_;
-  std::vector<double> lengths_, grips_;  ///< m, 1; of the last measure()
 };
 
 }  // namespace talus::fem

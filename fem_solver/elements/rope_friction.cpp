@@ -2,23 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numeric>
 
 namespace talus::fem {
 namespace {
 
-constexpr int most_steps = 30;
-constexpr int most_sweeps = 1000;
+/// Of Newton's method: from one step of a run to the next it arrives in two or three.
+constexpr int most_steps = 6;
 /// Of the tensions, relative to M dN/dM, which is of the order of E A: what round-off of the stretch makes of
 /// them.
 constexpr double settled_share = 1e-14;
 /// A segment gives away at most this share of its material in one Newton step.
 constexpr double largest_share = 0.9;
-
-double sum(std::span<const double> values) noexcept {
-  return std::accumulate(values.begin(), values.end(), 0.0);
-}
 
 /// N(l/M), continued below slackness along its tangent: Newton's method then knows how far from tension a
 /// segment is.
@@ -34,45 +28,30 @@ Continued continued_tension(const RopeLaw& law, double length, double material) 
 
 }  // namespace
 
-RopeFriction::RopeFriction(std::size_t segments)
-    : tension_(segments),
-      slope_(segments),
-      slip_(segments - 1),
-      motion_(segments - 1),
-      lower_(segments - 1),
-      diagonal_(segments - 1),
-      upper_(segments - 1),
-      right_(segments - 1),
-      swept_material_(segments),
-      swept_slip_(segments - 1) {}
+void RopeFriction::resize(std::size_t segments) {
+  for (auto* of_segments : {&tension_, &slope_}) of_segments->resize(segments);
+  for (auto* of_nodes : {&slip_, &lower_, &diagonal_, &upper_, &right_}) of_nodes->resize(segments - 1);
+  motion_.resize(segments - 1);
+}
 
 bool RopeFriction::settle(const RopeLaw& law, const RopeState& state, std::span<const double> old_material,
-                          std::span<double> material) noexcept {
-  std::copy(old_material.begin(), old_material.end(), material.begin());
-  std::fill(slip_.begin(), slip_.end(), 0.0);
-  std::fill(motion_.begin(), motion_.end(), Motion::stuck);
+                          std::span<double> material) {
+  if (material.data() != old_material.data()) std::ranges::copy(old_material, material.begin());
+  std::ranges::fill(slip_, 0.0);
+  std::ranges::fill(motion_, Motion::stuck);
   evaluate(law, state, material);
   if (within_limits(state)) return true;
-  if (sum(state.lengths) <= law.slack_stretch() * sum(material)) {
-    settle_slack(law, state, old_material, material);
-    return true;
-  }
-  if (solve(law, state, material)) return true;
-  start_without_friction(state, old_material, material);
-  for (int sweep = 0; sweep < most_sweeps; ++sweep) {
-    settle_nodes_in_turn(law, state, material);
-    std::copy(material.begin(), material.end(), swept_material_.begin());
-    swept_slip_ = slip_;
-    if (solve(law, state, material)) return true;
-    std::copy(swept_material_.begin(), swept_material_.end(), material.begin());
-    slip_ = swept_slip_;
-  }
-  return false;
+  start_.assign(material.begin(), material.end());
+  if (iterate(law, state, material)) return true;
+  if (!chain_.solve(law, state, start_, material, slip_)) return false;
+  evaluate(law, state, material);
+  for (std::size_t k = 0; k < slip_.size(); ++k)
+    motion_[k] = slip_[k] > 0 ? Motion::forward : slip_[k] < 0 ? Motion::backward : Motion::stuck;
+  return true;
 }
 
 /// Newton's method; may go round in circles where many nodes are far from their answer.
-bool RopeFriction::solve(const RopeLaw& law, const RopeState& state, std::span<double> material) noexcept {
-  evaluate(law, state, material);
+bool RopeFriction::iterate(const RopeLaw& law, const RopeState& state, std::span<double> material) noexcept {
   for (int step = 0; step < most_steps; ++step) {
     predict_motion(state);
     assemble(state);
@@ -89,49 +68,6 @@ void RopeFriction::pass(std::size_t node, double slip, std::span<double> materia
   slip_[node] += slip;
   material[node] -= slip;
   material[node + 1] += slip;
-}
-
-/// The one distribution known to leave every segment in tension.
-void RopeFriction::start_without_friction(const RopeState& state, std::span<const double> old_material,
-                                          std::span<double> material) noexcept {
-  const double stretch = sum(state.lengths) / sum(old_material);
-  double passed = 0;
-  for (std::size_t i = 0; i < material.size(); ++i) {
-    material[i] = state.lengths[i] / stretch;
-    passed += old_material[i] - material[i];
-    if (i < slip_.size()) slip_[i] = passed;
-  }
-}
-
-/// One sweep of coordinate descent: each node in turn reaches its answer for the present state of the others.
-/// Converges from any state under tension, because the potential of the class comment is strictly convex;
-/// slow, so Newton's method ends it.
-void RopeFriction::settle_nodes_in_turn(const RopeLaw& law, const RopeState& state,
-                                        std::span<double> material) noexcept {
-  for (std::size_t k = 0; k < slip_.size(); ++k) {
-    const double a = state.grips[k], near_length = state.lengths[k], far_length = state.lengths[k + 1];
-    const double near_unslipped = material[k] + slip_[k], far_unslipped = material[k + 1] - slip_[k];
-    // tensions if this node had not slipped; a segment left without material would pull with any force
-    const double infinite = std::numeric_limits<double>::infinity();
-    const double near =
-        near_unslipped > 0 ? continued_tension(law, near_length, near_unslipped).tension : infinite;
-    const double far =
-        far_unslipped > 0 ? continued_tension(law, far_length, far_unslipped).tension : infinite;
-    const bool forward = far > a * near;
-    if (!forward && !(near > a * far)) {
-      pass(k, -slip_[k], material);
-      continue;
-    }
-    const double near_factor = forward ? a : 1, far_factor = forward ? 1 : a;
-    double low = -far_unslipped, high = near_unslipped;  // slips that leave both with material
-    for (int halving = 0; halving < 60; ++halving) {
-      const double slip = 0.5 * (low + high);
-      const double pull = far_factor * continued_tension(law, far_length, far_unslipped + slip).tension -
-                          near_factor * continued_tension(law, near_length, near_unslipped - slip).tension;
-      (pull > 0 ? low : high) = slip;
-    }
-    pass(k, 0.5 * (low + high) - slip_[k], material);
-  }
 }
 
 void RopeFriction::evaluate(const RopeLaw& law, const RopeState& state,
@@ -219,36 +155,6 @@ double RopeFriction::longest_step(std::span<const double> material) const noexce
     if (-gain > largest_share * material[i]) share = std::min(share, largest_share * material[i] / -gain);
   }
   return share;
-}
-
-/// M_i = max(M_i^old - c, l_i/q_0) with the c >= 0 that keeps the sum: Newton's method on a falling,
-/// piecewise linear, convex function of c climbs to its root without overshoot.
-void RopeFriction::settle_slack(const RopeLaw& law, const RopeState& state,
-                                std::span<const double> old_material, std::span<double> material) noexcept {
-  const double q0 = law.slack_stretch(), total = sum(old_material);
-  const auto held = [&](std::size_t i, double c) {
-    return std::max(old_material[i] - c, state.lengths[i] / q0);
-  };
-  double c = 0;
-  for (std::size_t step = 0; step <= material.size(); ++step) {
-    double excess = -total;
-    std::size_t givers = 0;
-    for (std::size_t i = 0; i < material.size(); ++i) {
-      excess += held(i, c);
-      if (old_material[i] - c > state.lengths[i] / q0) ++givers;
-    }
-    if (excess <= 0 || givers == 0) break;
-    c += excess / static_cast<double>(givers);
-  }
-  double passed = 0;
-  std::vector<double>::iterator slip = slip_.begin();
-  for (std::size_t i = 0; i < material.size(); ++i) {
-    const double now = held(i, c);
-    passed += old_material[i] - now;
-    if (slip != slip_.end()) *slip++ = passed;
-    material[i] = now;
-  }
-  evaluate(law, state, material);
 }
 
 void RopeFriction::tension_changes(const RopeLaw& law, const RopeState& state,

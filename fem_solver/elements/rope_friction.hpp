@@ -3,17 +3,9 @@
 #include <span>
 #include <vector>
 
-#include "fem_solver/materials/rope_law.hpp"
+#include "fem_solver/elements/rope_chain.hpp"
 
-/// Friction of a rope that runs over its nodes, by the unstretched length each segment holds.
 namespace talus::fem {
-
-/// A rope at an instant: everything about it that friction depends on. Segments i = 0..m-1, inner nodes k =
-/// 0..m-2 between segments k and k + 1.
-struct RopeState {
-  std::span<const double> lengths;  ///< m; current, all > 0
-  std::span<const double> grips;    ///< exp(mu wrap angle) of each inner node, >= 1
-};
 
 /// Where material goes in a step. Source: capstan equation (Euler 1769) at every inner node at once, fully
 /// implicit.
@@ -31,18 +23,19 @@ struct RopeState {
 /// With -ln N as the slope of a convex potential of M_i these are the conditions of the least of
 /// sum_i P_i(M_i) + sum_k mu theta_k |s_k|, strictly convex: the solution is unique, so it depends on no
 /// order of the nodes. Material moves towards the larger tension only, so the elastic energy falls: what it
-/// loses is the friction's dissipation, never negative. A rope slack as a whole (sum l_i <= q_0 sum M_i) has
-/// no friction: material moves as little as makes every segment slack, in the sense of least squares. Solved
-/// by Newton's method on the nodes that slip (tridiagonal), the set of which follows from each step. Proven
-/// by: elements_friction.cpp.
+/// loses is the friction's dissipation, never negative. Solved by a few steps of Newton's method on the nodes that
+/// slip (tridiagonal), the set of which follows from each step; where that does not arrive at once (nodes far
+/// from their answer, slack segments) by RopeChain, which always does. Proven by: elements_friction.cpp.
 class RopeFriction {
  public:
-  explicit RopeFriction(std::size_t segments);
+  /// Room for ropes of so many segments; kept for the next.
+  void resize(std::size_t segments);
 
-  /// Fills `material` from `old_material` (which may be the same memory). Does not allocate.
-  /// @return false where Newton's method did not converge; `material` then means nothing
+  /// Fills `material` from `old_material` (which may be the same memory).
+  /// @pre resize() to this rope
+  /// @return false where a length or material is not a positive finite number; `material` then means nothing
   bool settle(const RopeLaw& law, const RopeState& state, std::span<const double> old_material,
-              std::span<double> material) noexcept;
+              std::span<double> material);
 
   /// Slip of each inner node in the last settle(): towards the next segment positive, m.
   std::span<const double> slips() const noexcept { return slip_; }
@@ -59,12 +52,7 @@ class RopeFriction {
  private:
   enum class Motion : signed char { backward = -1, stuck = 0, forward = 1 };
 
-  void settle_slack(const RopeLaw& law, const RopeState& state, std::span<const double> old_material,
-                    std::span<double> material) noexcept;
-  bool solve(const RopeLaw& law, const RopeState& state, std::span<double> material) noexcept;
-  void start_without_friction(const RopeState& state, std::span<const double> old_material,
-                              std::span<double> material) noexcept;
-  void settle_nodes_in_turn(const RopeLaw& law, const RopeState& state, std::span<double> material) noexcept;
+  bool iterate(const RopeLaw& law, const RopeState& state, std::span<double> material) noexcept;
   void pass(std::size_t node, double slip, std::span<double> material) noexcept;
   void evaluate(const RopeLaw& law, const RopeState& state, std::span<const double> material) noexcept;
   bool within_limits(const RopeState& state) const noexcept;
@@ -80,7 +68,8 @@ class RopeFriction {
   std::vector<Motion> motion_;           ///< of each inner node
   std::vector<double> lower_, diagonal_, upper_,
       right_;  ///< tridiagonal system of the slips; right_ holds its solution
-  std::vector<double> swept_material_, swept_slip_;
+  std::vector<double> start_;  ///< m; material before the step
+  RopeChain chain_;
 };
 
 }  // namespace talus::fem

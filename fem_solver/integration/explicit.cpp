@@ -20,12 +20,9 @@ struct MassDampingTerm {};
 ExplicitSolver::ExplicitSolver(const Model& model, Assembly& assembly, double step)
     : model_(model), assembly_(assembly), longest_step_(step) {
   const std::size_t values = model.reference.size();
-  state_.displacement.assign(values, 0);
-  state_.velocity.assign(values, 0);
+  static_cast<State&>(state_) = initial_state(model);
   state_.force.assign(values, 0);
   state_.reactions.assign(reaction_count(model), 0);
-  for (const auto& initial : model.initial_velocities)
-    for (const Index node : initial.nodes) Vector3::Map(&state_.velocity[3 * node]) = initial.velocity;
   for (const double m : model.node_masses) inverse_mass_.insert(inverse_mass_.end(), 3, m > 0 ? 1 / m : 0);
   if (model.damping.mass > 0)
     for (const double m : model.node_masses) mass_.insert(mass_.end(), 3, m);
@@ -68,11 +65,9 @@ bool ExplicitSolver::starts_in_balance(double time, double step) noexcept {
 }
 
 void ExplicitSolver::archive(core::StateArchive& archive) {
-  archive.values("displacement", state_.displacement);
-  archive.values("velocity", state_.velocity);
+  fem::archive(archive, state_);
   archive.values("force", state_.force);
   archive.values("reactions", state_.reactions);
-  archive_element_memory(archive, model_);
   archive.count("steps", state_.steps);
   auto rest = static_cast<std::int64_t>(state_.rest);
   archive.count("rest", rest);
@@ -92,7 +87,7 @@ void ExplicitSolver::step(double time, double step) {
   assembly_.start_step();
   state_.kick = 0.5 * (state_.previous_step + step);
   evaluate_forces(time);
-  accept_memory(model_);
+  std::ranges::copy(assembly_.next_memory(), state_.memory.begin());
   impose_supports(time, step);
   assembly_.lap(StepStage::other_forces);
   arrive(time);
@@ -110,7 +105,7 @@ void ExplicitSolver::step(double time, double step) {
   prepared_ = false;
   if (!std::isfinite(activity)) report_blow_up(time + step);
   if (watch_ && state_.steps % StepWatch::interval == 0)
-    watch_->look({state_.displacement, step, time + step, state_.steps, last_output_time});
+    watch_->look({state_.configuration(), step, time + step, state_.steps, last_output_time});
   assembly_.lap(StepStage::everything_else);
 }
 
@@ -123,7 +118,7 @@ void ExplicitSolver::evaluate_forces(double time) noexcept {
 void ExplicitSolver::prepare() {
   if (prepared_) return;
   element_force_.resize(state_.displacement.size());
-  assembly_.internal_force(state_.displacement, element_force_);
+  assembly_.internal_force(state_.configuration(), element_force_);
   prepared_ = true;
 }
 
@@ -131,7 +126,7 @@ void ExplicitSolver::evaluate_own_forces(double time, std::span<double> force) n
   if (prepared_)
     std::ranges::copy(element_force_, force.begin());
   else
-    assembly_.internal_force(state_.displacement, force);
+    assembly_.internal_force(state_.configuration(), force);
   if (model_.damping.stiffness > 0) subtract_stiffness_damping(force);
   add_external_force(model_, {}, {.time = time}, force);
 }
@@ -158,7 +153,7 @@ std::span<const double> ExplicitSolver::free_velocity(double time, double step) 
 }
 
 void ExplicitSolver::subtract_stiffness_damping(std::span<double> force) noexcept {
-  assembly_.stiffness_product(state_.displacement, state_.velocity, damping_force_);
+  assembly_.stiffness_product(state_.configuration(), state_.velocity, damping_force_);
   core::parallel_for(static_cast<std::int64_t>(force.size()), [&](std::int64_t i) {
     damping_force_[i] *= model_.damping.stiffness;
     force[i] -= damping_force_[i];

@@ -11,17 +11,14 @@
 #include "fem_solver/integration/integrator.hpp"
 #include "fem_solver/integration/slide_run.hpp"
 #include "fem_solver/integration/step_watch.hpp"
-#include "fem_solver/model/snapshot.hpp"
 
 namespace talus::fem {
 
 /// Whether a structure has moved since the start: before its first step nobody knows.
 enum class Rest : std::int64_t { to_be_seen, rests, moves };
 
-/// A moment of the run. Copying it is saving it; every number that the next step depends on is in here.
-struct ExplicitState {
-  std::vector<double> displacement;  ///< m; at the present time
-  std::vector<double> velocity;      ///< m/s; half a step before the present time
+/// A moment of the run.
+struct ExplicitState : State {
   std::vector<double>
       force;  ///< N; sum of all forces at the time of the last evaluation, zero where supported
   std::vector<double>
@@ -68,8 +65,6 @@ class ExplicitSolver final : public Integrator {
 
   void advance(double time, double length) override;
   void prepare() override;
-  std::span<const double> displacement() const override { return state_.displacement; }
-  std::span<const double> velocity() const override { return state_.velocity; }
   std::span<const double> reactions() const override { return state_.reactions; }
   std::span<const double> free_velocity(double time, double step) override;
   /// The balance at the time of the last force evaluation, one step before the present; before the first
@@ -80,11 +75,11 @@ class ExplicitSolver final : public Integrator {
   }
   double slide_gap(std::size_t slide) const override { return slides_[slide].largest_violation(); }
   std::int64_t force_evaluations() const override { return force_evaluations_; }
-  void save() override { saved_.take(state_, model_); }
+  void save() override { saved_ = state_; }
   void archive(core::StateArchive& archive) override;
   const char* method() const override { return "fem_solver explicit"; }
   void restore() override {
-    saved_.put_back(state_, model_);
+    state_ = saved_;
     prepared_ = false;
   }
 
@@ -100,7 +95,7 @@ class ExplicitSolver final : public Integrator {
     prepared_ = false;
     return state_;
   }
-  const ExplicitState& state() const { return state_; }
+  const ExplicitState& state() const override { return state_; }
 
  private:
   /// A structure whose forces cancel to round-off, and to which nothing happens, rests until the interface
@@ -144,7 +139,7 @@ class ExplicitSolver final : public Integrator {
   Assembly& assembly_;
   double longest_step_;
   ExplicitState state_;
-  Snapshot<ExplicitState> saved_;
+  ExplicitState saved_;
   std::optional<StepWatch> watch_;
   std::vector<SlideRun> slides_;         ///< of the model's constrained slides
   std::vector<double> velocity_before_;  ///< m/s; of the step in progress, where there are slides

@@ -63,10 +63,9 @@ EnergyBalance ExplicitSolver::balance_at_evaluation() const {
   const std::vector<double> displacement = displacement_at_evaluation();
   EnergyBalance balance;
   add_kinetic(balance);
-  for (const auto& part : model_.parts)
-    balance.elastic.push_back(
-        std::visit([&](const auto& batch) { return batch.energy(displacement); }, part.elements));
-  balance.dissipated = dissipated_by_parts(model_, displacement);
+  const Configuration at(displacement, state_.memory);
+  balance.elastic = elastic_by_parts(model_, at);
+  balance.dissipated = dissipated_by_parts(model_, at);
   if (model_.gravity) {
     for (Index node = 0; node < model_.nodes(); ++node)
       balance.gravity -=

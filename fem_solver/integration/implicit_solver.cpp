@@ -18,14 +18,9 @@ ImplicitSolver::ImplicitSolver(const Model& model, Assembly& assembly, const Imp
   gamma_ = 0.5 - alpha_m_ + alpha_f_;
   beta_ = 0.25 * (1 - alpha_m_ + alpha_f_) * (1 - alpha_m_ + alpha_f_);
   const std::vector<double> zero(model.reference.size(), 0.0);
-  state_ = {.displacement = zero,
-            .velocity = zero,
-            .acceleration = zero,
-            .force = zero,
-            .interface_force = zero,
-            .reactions = std::vector<double>(reaction_count(model), 0.0)};
-  for (const auto& initial : model.initial_velocities)
-    for (const Index node : initial.nodes) Vector3::Map(&state_.velocity[3 * node]) = initial.velocity;
+  static_cast<State&>(state_) = initial_state(model);
+  state_.acceleration = state_.force = state_.interface_force = zero;
+  state_.reactions.assign(reaction_count(model), 0.0);
   mean_ = product_ = zero;
 }
 
@@ -50,13 +45,11 @@ void ImplicitSolver::advance(double time, double length) {
 }
 
 void ImplicitSolver::archive(core::StateArchive& archive) {
-  archive.values("displacement", state_.displacement);
-  archive.values("velocity", state_.velocity);
+  fem::archive(archive, static_cast<State&>(state_));
   archive.values("acceleration", state_.acceleration);
   archive.values("force", state_.force);
   archive.values("interface_force", state_.interface_force);
   archive.values("reactions", state_.reactions);
-  archive_element_memory(archive, model_);
   archive.count("steps", state_.steps);
   std::vector<double> damped{state_.damped};
   archive.values("damped", damped);
@@ -67,7 +60,7 @@ void ImplicitSolver::archive(core::StateArchive& archive) {
 /// The acceleration the first step starts from, before the interface's forces.
 void ImplicitSolver::start(double time) {
   before_ = state_;
-  assembly_.internal_force(state_.displacement, state_.force);
+  assembly_.internal_force(state_.configuration(), state_.force);
   add_external_force(model_, {}, {.time = time}, state_.force);
   std::vector<double> sum = state_.force;
   add_damping(-1, state_.velocity, sum);
@@ -115,7 +108,7 @@ bool ImplicitSolver::take(const Step& step) {
   }
   update_rates(step.length, state_.displacement);
   total_force(step.time + step.length, state_.displacement, state_.force);
-  accept_memory(model_);
+  std::ranges::copy(assembly_.next_memory(), state_.memory.begin());
   account(step);
   ++state_.steps;
   return true;
@@ -161,7 +154,7 @@ void ImplicitSolver::add_damping(double factor, std::span<const double> velocity
     for (std::size_t i = 0; i < out.size(); ++i)
       out[i] += factor * damping.mass * model_.node_masses[i / 3] * velocity[i];
   if (damping.stiffness > 0) {
-    assembly_.stiffness_product(before_.displacement, velocity, product_);
+    assembly_.stiffness_product(before_.configuration(), velocity, product_);
     for (std::size_t i = 0; i < out.size(); ++i) out[i] += factor * damping.stiffness * product_[i];
   }
 }
@@ -171,6 +164,7 @@ NewtonSystem ImplicitSolver::system(const Step& step) {
   NewtonSystem system{
       .residual = [this, step](std::span<const double> u, std::span<double> r) { residual(step, u, r); },
       .force_scale = [this] { return force_scale_; },
+      .memory = state_.memory,
       .stiffness_factor = 1 - alpha_f_ + rate * model_.damping.stiffness,
       .diagonal = std::vector<double>(model_.reference.size())};
   const double mass_factor = (1 - alpha_m_) / (beta_ * dt * dt) + rate * model_.damping.mass;
@@ -181,7 +175,7 @@ NewtonSystem ImplicitSolver::system(const Step& step) {
 
 /// External minus internal forces.
 void ImplicitSolver::total_force(double time, std::span<const double> displacement, std::span<double> force) {
-  assembly_.internal_force(displacement, force);
+  assembly_.internal_force({displacement, state_.memory}, force);
   add_external_force(model_, interface_, {.time = time}, force);
 }
 
@@ -215,10 +209,8 @@ EnergyBalance ImplicitSolver::balance() {
   EnergyBalance balance;
   for (std::size_t i = 0; i < state_.velocity.size(); ++i)
     balance.kinetic += 0.5 * model_.node_masses[i / 3] * state_.velocity[i] * state_.velocity[i];
-  for (const auto& part : model_.parts)
-    balance.elastic.push_back(
-        std::visit([&](const auto& batch) { return batch.energy(state_.displacement); }, part.elements));
-  balance.dissipated = dissipated_by_parts(model_, state_.displacement);
+  balance.elastic = elastic_by_parts(model_, state_.configuration());
+  balance.dissipated = dissipated_by_parts(model_, state_.configuration());
   balance.gravity = -state_.works.gravity;
   balance.bulk_damping = state_.damped;
   balance.loads = state_.works.loads;

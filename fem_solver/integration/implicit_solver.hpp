@@ -7,7 +7,6 @@
 #include "fem_solver/integration/external_force.hpp"
 #include "fem_solver/integration/integrator.hpp"
 #include "fem_solver/integration/newton.hpp"
-#include "fem_solver/model/snapshot.hpp"
 
 namespace talus::fem {
 
@@ -16,6 +15,18 @@ struct ImplicitOptions {
   double spectral_radius =
       1;  ///< at infinite frequency: 1 keeps every motion, 0 removes what a step cannot resolve
   NewtonOptions newton{};
+};
+
+/// A moment of an implicit run, at the end of a step.
+struct ImplicitState : State {
+  std::vector<double> acceleration;     ///< m/s^2
+  std::vector<double> force;            ///< N; external minus internal at the present time
+  std::vector<double> interface_force;  ///< N; the part of it that came through the interface
+  std::vector<double> reactions;        ///< N; 3 a supported node
+  ExternalWorks works{};                ///< J
+  double damped = 0;                    ///< J
+  std::int64_t steps = 0;
+  bool operator==(const ImplicitState&) const = default;
 };
 
 /// Generalised-alpha method with Newton's iteration. Source: Chung and Hulbert, J. Appl. Mech. 60 (1993), eq.
@@ -49,8 +60,7 @@ class ImplicitSolver final : public Integrator {
   ImplicitSolver(const Model& model, Assembly& assembly, const ImplicitOptions& options);
 
   void advance(double time, double length) override;
-  std::span<const double> displacement() const override { return state_.displacement; }
-  std::span<const double> velocity() const override { return state_.velocity; }
+  const ImplicitState& state() const override { return state_; }
   std::span<const double> reactions() const override { return state_.reactions; }
   /// The balance at the present time; works by the trapezoidal rule over each step.
   EnergyBalance balance() override;
@@ -59,22 +69,12 @@ class ImplicitSolver final : public Integrator {
     return newton_.slides().gap(slide, state_.displacement);
   }
   std::int64_t force_evaluations() const override { return newton_.evaluations(); }
-  void save() override { saved_.take(state_, model_); }
+  void save() override { saved_ = state_; }
   void archive(core::StateArchive& archive) override;
   const char* method() const override { return "fem_solver implicit"; }
-  void restore() override { saved_.put_back(state_, model_); }
+  void restore() override { state_ = saved_; }
 
-  struct State {
-    std::vector<double> displacement, velocity, acceleration;
-    std::vector<double> force;            ///< N; external minus internal at the present time
-    std::vector<double> interface_force;  ///< N; the part of it that came through the interface
-    std::vector<double> reactions;        ///< N; 3 a supported node
-    ExternalWorks works{};                ///< J
-    double damped = 0;                    ///< J
-    std::int64_t steps = 0;
-    bool operator==(const State&) const = default;
-  };
-  State& state() { return state_; }
+  ImplicitState& state() { return state_; }
   const std::vector<NewtonReport>& reports() const { return reports_; }
 
  private:
@@ -101,9 +101,9 @@ class ImplicitSolver final : public Integrator {
   ImplicitOptions options_;
   double alpha_m_, alpha_f_, gamma_, beta_;
   Newton newton_;
-  State state_;
-  Snapshot<State> saved_;
-  State before_;                        ///< the start of the step in progress
+  ImplicitState state_;
+  ImplicitState saved_;
+  ImplicitState before_;                        ///< the start of the step in progress
   std::vector<double> mean_, product_;  ///< velocity inside a step, and stiffness times it
   double force_scale_ = 0;
   std::vector<NewtonReport> reports_;

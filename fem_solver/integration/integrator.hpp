@@ -3,9 +3,8 @@
 #include <span>
 #include <vector>
 
-#include "core/output/checkpoint.hpp"
 #include "fem_solver/integration/interface_force.hpp"
-#include "fem_solver/model/model.hpp"
+#include "fem_solver/model/state.hpp"
 
 namespace talus::fem {
 
@@ -34,8 +33,9 @@ class Integrator {
   /// has the same bits with and without.
   virtual void prepare() {}
 
-  virtual std::span<const double> displacement() const = 0;  ///< m; at the present time, 3 a node
-  virtual std::span<const double> velocity() const = 0;      ///< m/s; leapfrog: half a step before, 3 a node
+  virtual const State& state() const = 0;
+  std::span<const double> displacement() const { return state().displacement; }
+  std::span<const double> velocity() const { return state().velocity; }
   /// The velocity (m/s, 3 a node) that a step of `step` (s) from the present `time` (s) would lead to if no
   /// interface force acted in it, before the constraints of sliders; empty where the integrator cannot say
   /// it.

@@ -48,7 +48,7 @@ std::vector<double> Newton::accelerations(Push push, std::vector<double>& displa
   slides_.start(displacement);
   slides_.settle(displacement, push.force);
   solver_.forget_pattern();
-  solver_.factorise(slides_.condense(stiffness_.assemble(displacement, 0, push.masses)));
+  solver_.factorise(slides_.condense(stiffness_.assemble({displacement, {}}, 0, push.masses)));
   equations_.scatter_add(1, solver_.solve(equations_.gather(push.force)), found);
   slides_.lead(found);
   return found;
@@ -61,7 +61,7 @@ void Newton::evaluate(const NewtonSystem& system, const std::vector<double>& dis
 }
 
 SparseMatrix Newton::tangent(const NewtonSystem& system, std::span<const double> displacement) {
-  const SparseMatrix& free = stiffness_.assemble(displacement, system.stiffness_factor, system.diagonal);
+  const SparseMatrix& free = stiffness_.assemble({displacement, system.memory}, system.stiffness_factor, system.diagonal);
   return slides_.exists() ? slides_.condense_with_curvature(free) : free;
 }
 

@@ -17,6 +17,7 @@ struct NewtonSystem {
   std::function<void(std::span<const double> displacement, std::span<double> residual)>
       residual;                         ///< N, 3 a node
   std::function<double()> force_scale;  ///< N; size of the forces that balance in the residual computed last
+  std::span<const double> memory = {};  ///< of the elements, at the step's start
   double stiffness_factor = 1;
   std::vector<double> diagonal;  ///< N/m, 3 a node
 };

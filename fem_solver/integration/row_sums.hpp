@@ -15,13 +15,13 @@ namespace talus::fem {
 /// and for a square net along its axes; up to twice w^2 where cables run across the axes. Elements' numbers
 /// are summed by size before they meet, which can only raise the bound. Proven by: "row sums bound the
 /// highest frequency of a net at random states and give that of a chain" (step_limit_test.cpp).
-std::vector<double> stiffness_row_sums(const Model& model, std::span<const double> displacement);
+std::vector<double> stiffness_row_sums(const Model& model, const Configuration& at);
 
 /// The direction (3 node + 0, 1, 2) with the largest ratio of row sum to mass, and that ratio (1/s^2).
 struct FrequencyBound {
   double squared = 0;
   std::size_t direction = 0;
 };
-FrequencyBound frequency_bound(const Model& model, std::span<const double> displacement);
+FrequencyBound frequency_bound(const Model& model, const Configuration& at);
 
 }  // namespace talus::fem

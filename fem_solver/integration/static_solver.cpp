@@ -22,9 +22,9 @@ LoadTime load_time(double time, double end) {
 
 StaticSolver::StaticSolver(const Model& model, Assembly& assembly, const StaticOptions& options)
     : model_(model), assembly_(assembly), options_(options), newton_(model) {
-  state_.displacement.assign(model.reference.size(), 0);
+  static_cast<State&>(state_) = initial_state(model);
+  std::ranges::fill(state_.velocity, 0.0);
   state_.reactions.assign(reaction_count(model), 0);
-  velocity_.assign(model.reference.size(), 0);
   external_.assign(model.reference.size(), 0);
 }
 
@@ -36,7 +36,7 @@ void StaticSolver::advance(double time, double length) {
   const double end = time + length, smallest = smallest_share_of_step * share;
   for (double now = time; now < end - 0.5 * smallest;) {
     const double next = now + share > end - 0.5 * smallest ? end : now + share;
-    const State before = state_;
+    const StaticState before = state_;
     if (equilibrate(next)) {
       account(before, {load_time(now, options_.end), load_time(next, options_.end)});
       now = next;
@@ -51,9 +51,8 @@ void StaticSolver::advance(double time, double length) {
 }
 
 void StaticSolver::archive(core::StateArchive& archive) {
-  archive.values("displacement", state_.displacement);
+  fem::archive(archive, static_cast<State&>(state_));
   archive.values("reactions", state_.reactions);
-  archive_element_memory(archive, model_);
   fem::archive(archive, state_.works);
 }
 
@@ -86,13 +85,14 @@ bool StaticSolver::equilibrate(double time) {
 NewtonSystem StaticSolver::system() {
   return {.residual = [this](std::span<const double> u, std::span<double> r) { residual(u, r); },
           .force_scale = [this] { return force_scale_; },
+          .memory = state_.memory,
           .stiffness_factor = 1,
           .diagonal = std::vector<double>(model_.reference.size(), 0.0)};
 }
 
 void StaticSolver::residual(std::span<const double> displacement, std::span<double> residual) {
   assembly_.lap(StepStage::everything_else);
-  assembly_.internal_force(displacement, residual);
+  assembly_.internal_force({displacement, state_.memory}, residual);
   force_scale_ = assembly_.largest_element_force();
   for (std::size_t i = 0; i < residual.size(); ++i) {
     residual[i] += external_[i];
@@ -101,10 +101,10 @@ void StaticSolver::residual(std::span<const double> displacement, std::span<doub
 }
 
 /// Reactions, and the works along the straight line between two equilibria.
-void StaticSolver::account(const State& before, const LoadSpan& span) {
+void StaticSolver::account(const StaticState& before, const LoadSpan& span) {
   std::vector<double> sum(model_.reference.size()), change(model_.reference.size());
   residual(state_.displacement, sum);
-  accept_memory(model_);
+  std::ranges::copy(assembly_.next_memory(), state_.memory.begin());
   newton_.slides().carry_over(sum);
   std::ranges::transform(state_.displacement, before.displacement, change.begin(), std::minus<>{});
   for_each_support(model_, [&](const Support& support, std::size_t dof, std::size_t offset) {
@@ -120,10 +120,8 @@ void StaticSolver::account(const State& before, const LoadSpan& span) {
 
 EnergyBalance StaticSolver::balance() {
   EnergyBalance balance;
-  for (const auto& part : model_.parts)
-    balance.elastic.push_back(
-        std::visit([&](const auto& batch) { return batch.energy(state_.displacement); }, part.elements));
-  balance.dissipated = dissipated_by_parts(model_, state_.displacement);
+  balance.elastic = elastic_by_parts(model_, state_.configuration());
+  balance.dissipated = dissipated_by_parts(model_, state_.configuration());
   balance.gravity = -state_.works.gravity;
   balance.loads = state_.works.loads;
   balance.supports = state_.works.supports;

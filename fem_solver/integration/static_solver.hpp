@@ -7,7 +7,6 @@
 #include "fem_solver/integration/external_force.hpp"
 #include "fem_solver/integration/integrator.hpp"
 #include "fem_solver/integration/newton.hpp"
-#include "fem_solver/model/snapshot.hpp"
 
 namespace talus::fem {
 
@@ -16,6 +15,13 @@ struct StaticOptions {
   double end = 1;   ///< s; where gravity and loads without a table have grown to their full size
   double step = 1;  ///< s; of the load, halved where Newton fails
   NewtonOptions newton{};
+};
+
+/// A moment of a static run, at equilibrium; its velocity stays zero.
+struct StaticState : State {
+  std::vector<double> reactions;  ///< N
+  ExternalWorks works;  ///< J
+  bool operator==(const StaticState&) const = default;
 };
 
 /// Equilibrium under loads that grow over the run's time: gravity, loads and prescribed motion without a
@@ -29,8 +35,7 @@ class StaticSolver final : public Integrator {
   StaticSolver(const Model& model, Assembly& assembly, const StaticOptions& options);
 
   void advance(double time, double length) override;
-  std::span<const double> displacement() const override { return state_.displacement; }
-  std::span<const double> velocity() const override { return velocity_; }
+  const StaticState& state() const override { return state_; }
   std::span<const double> reactions() const override { return state_.reactions; }
   EnergyBalance balance() override;
   double interface_work() const override { return state_.works.interface; }
@@ -38,26 +43,21 @@ class StaticSolver final : public Integrator {
     return newton_.slides().gap(slide, state_.displacement);
   }
   std::int64_t force_evaluations() const override { return newton_.evaluations(); }
-  void save() override { saved_.take(state_, model_); }
+  void save() override { saved_ = state_; }
   void archive(core::StateArchive& archive) override;
   const char* method() const override { return "fem_solver static"; }
-  void restore() override { saved_.put_back(state_, model_); }
+  void restore() override { state_ = saved_; }
 
   /// Newton's report of every load step of the last advance.
   const std::vector<NewtonReport>& reports() const { return reports_; }
 
  private:
-  struct State {
-    std::vector<double> displacement, reactions;
-    ExternalWorks works;  ///< J
-    bool operator==(const State&) const = default;
-  };
   void start(double time);
   void note_reactions(std::span<const double> sum);
   bool equilibrate(double time);
   NewtonSystem system();
   void residual(std::span<const double> displacement, std::span<double> residual);
-  void account(const State& before, const LoadSpan& span);
+  void account(const StaticState& before, const LoadSpan& span);
   void check_for_mechanisms(double time);
   std::string nodes_that_move(const Eigen::VectorXd& motion) const;
   [[noreturn]] void report_failure(double time) const;
@@ -66,9 +66,8 @@ class StaticSolver final : public Integrator {
   Assembly& assembly_;
   StaticOptions options_;
   Newton newton_;
-  State state_;
-  Snapshot<State> saved_;
-  std::vector<double> velocity_;  ///< zero
+  StaticState state_;
+  StaticState saved_;
   std::vector<double> external_;  ///< N; at the load being solved for
   double force_scale_ = 0;
   std::vector<NewtonReport> reports_;

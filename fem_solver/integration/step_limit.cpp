@@ -67,7 +67,7 @@ Upper upper_of(const Tridiagonal& made) {
 
 /// Lanczos iteration from the fixed start vector; visit(q) sees every vector of the basis.
 template <class Visit>
-Tridiagonal iterate(Assembly& assembly, std::span<const double> displacement, const Vector& scale,
+Tridiagonal iterate(Assembly& assembly, const Configuration& at, const Vector& scale,
                     Visit&& visit) {
   constexpr std::size_t most_products = 80;
   Tridiagonal made;
@@ -77,7 +77,7 @@ Tridiagonal iterate(Assembly& assembly, std::span<const double> displacement, co
   while (true) {
     visit(q);
     x = scale.cwiseProduct(q);
-    assembly.stiffest_product(displacement, {x.data(), static_cast<std::size_t>(x.size())},
+    assembly.stiffest_product(at, {x.data(), static_cast<std::size_t>(x.size())},
                               {r.data(), static_cast<std::size_t>(r.size())});
     r = r.cwiseProduct(scale) - made.next_beside * before;
     made.diagonal.push_back(r.dot(q));
@@ -93,22 +93,22 @@ Tridiagonal iterate(Assembly& assembly, std::span<const double> displacement, co
 }
 
 /// The displacement of the fastest mode, of any size. The basis is made a second time, not kept.
-Vector fastest_shape(Assembly& assembly, std::span<const double> displacement) {
+Vector fastest_shape(Assembly& assembly, const Configuration& at) {
   const Vector scale = free_inverse_root_mass(assembly.model());
-  const Tridiagonal made = iterate(assembly, displacement, scale, [](const Vector&) {});
+  const Tridiagonal made = iterate(assembly, at, scale, [](const Vector&) {});
   Vector shape = Vector::Zero(scale.size());
   if (made.diagonal.empty()) return shape;
   const Upper upper = upper_of(made);
   Eigen::Index k = 0;
-  iterate(assembly, displacement, scale, [&](const Vector& q) { shape += upper.vector[k++] * q; });
+  iterate(assembly, at, scale, [&](const Vector& q) { shape += upper.vector[k++] * q; });
   return scale.cwiseProduct(shape);
 }
 
 }  // namespace
 
-double largest_frequency(Assembly& assembly, std::span<const double> displacement) {
+double largest_frequency(Assembly& assembly, const Configuration& at) {
   const Tridiagonal made =
-      iterate(assembly, displacement, free_inverse_root_mass(assembly.model()), [](const Vector&) {});
+      iterate(assembly, at, free_inverse_root_mass(assembly.model()), [](const Vector&) {});
   if (made.diagonal.empty()) return 0;
   const Upper upper = upper_of(made);
   const double residual = std::abs(made.next_beside * upper.vector[upper.vector.size() - 1]);
@@ -154,15 +154,15 @@ constexpr bool may_be_slack =
     std::is_same_v<Batch, CableBatch> || std::is_same_v<Batch, SlidingCableBatch> ||
     std::is_same_v<Batch, FrictionalCableBatch> || std::is_same_v<Batch, ElasticPlasticBatch>;
 template <class Batch>
-bool is_slack(const Batch& batch, std::span<const double> displacement) {
+bool is_slack(const Batch& batch, const Configuration& at) {
   if constexpr (!may_be_slack<Batch>)
     return false;
-  else if constexpr (requires { batch.axial_force(displacement, 0); })
-    return batch.size() > 0 && batch.axial_force(displacement, 0) <= 0;
-  else if constexpr (requires { batch.tension(displacement); })
-    return batch.tension(displacement) <= 0;
+  else if constexpr (requires { batch.axial_force(at, 0); })
+    return batch.size() > 0 && batch.axial_force(at, 0) <= 0;
+  else if constexpr (requires { batch.tension(at); })
+    return batch.tension(at) <= 0;
   else
-    return batch.tension(displacement, 0) <= 0;
+    return batch.tension(at, 0) <= 0;
 }
 
 /// What snaps taut keeps the balance of energy to about half a percent at this share of the limit (docs/step_limits.md).
@@ -171,23 +171,23 @@ constexpr double share_for_snapping = 0.25;
 /// The bounds of one structure at one state.
 class BoundSearch {
  public:
-  BoundSearch(Assembly& assembly, std::span<const double> displacement)
+  BoundSearch(Assembly& assembly, const Configuration& at)
       : assembly_(assembly),
         model_(assembly.model()),
-        displacement_(displacement),
-        whole_(largest_frequency(assembly, displacement)) {}
+        at_(at),
+        part_(at),
+        whole_(largest_frequency(assembly, at)) {}
 
   std::vector<StepBound> run() {
     if (whole_ == 0) return {};
-    shape_ = fastest_shape(assembly_, displacement_);
-    for (const auto& part : model_.parts)
-      std::visit(
-          [&](const auto& batch) {
-            weigh(part.name, kind_of<std::decay_t<decltype(batch)>>, batch);
-            slack_ = slack_ || is_slack(batch, displacement_);
-            add_part(part.name, batch);
-          },
-          part.elements);
+    shape_ = fastest_shape(assembly_, at_);
+    for_each_part(model_, at_, [&](std::size_t p, const auto& batch, const Configuration& own) {
+      const std::string& name = model_.parts[p].name;
+      part_ = own;
+      weigh(name, kind_of<std::decay_t<decltype(batch)>>, batch);
+      slack_ = slack_ || is_slack(batch, own);
+      add_part(name, batch);
+    });
     std::ranges::stable_sort(bounds_, {}, &StepBound::seconds);
     const double seconds = stable_step(whole_, model_.damping);
     bounds_.insert(bounds_.begin(),
@@ -204,7 +204,7 @@ class BoundSearch {
     Model alone = only(std::move(elements));
     Assembly assembly(alone);
     Vector product(shape_.size());
-    assembly.stiffest_product(displacement_, {shape_.data(), static_cast<std::size_t>(shape_.size())},
+    assembly.stiffest_product(part_, {shape_.data(), static_cast<std::size_t>(shape_.size())},
                               {product.data(), static_cast<std::size_t>(product.size())});
     const double energy = shape_.dot(product);
     if (energy <= seat_energy_) return;
@@ -248,7 +248,7 @@ class BoundSearch {
   double frequency_of(ElementBatch elements) const {
     const Model alone = only(std::move(elements));
     Assembly assembly(alone);
-    return std::min(whole_, largest_frequency(assembly, displacement_));
+    return std::min(whole_, largest_frequency(assembly, part_));
   }
   Model only(ElementBatch elements) const {
     Model alone = model_;
@@ -269,7 +269,7 @@ class BoundSearch {
     double seconds = std::numeric_limits<double>::infinity();
     for (Index e = 0; e < batch.size(); ++e) {
       const double passage = batch.reference_length(e) *
-                             std::sqrt(batch.part().density / batch.wave_moduli(displacement_, e).along);
+                             std::sqrt(batch.part().density / batch.wave_moduli(part_, e).along);
       if (passage < seconds) seconds = passage, shortest = e;
     }
     if (shortest < 0) return "";
@@ -279,7 +279,8 @@ class BoundSearch {
 
   Assembly& assembly_;
   const Model& model_;
-  std::span<const double> displacement_;
+  Configuration at_;
+  Configuration part_;  ///< of the part in turn
   double whole_;
   Vector shape_;            ///< of the fastest mode
   double seat_energy_ = 0;  ///< of the part that takes most of its energy, in the mode's units
@@ -290,8 +291,8 @@ class BoundSearch {
 
 }  // namespace
 
-std::vector<StepBound> step_bounds(Assembly& assembly, std::span<const double> displacement) {
-  return BoundSearch(assembly, displacement).run();
+std::vector<StepBound> step_bounds(Assembly& assembly, const Configuration& at) {
+  return BoundSearch(assembly, at).run();
 }
 
 }  // namespace talus::fem

@@ -21,7 +21,7 @@ struct StepBound {
 /// chapter 13) from a fixed start vector: unlike plain power iteration it also separates the crowded upper
 /// end of a net's spectrum within a few dozen products, and its residual bounds the error.
 /// @returns 1/s; the estimate plus its residual bound. 0 where nothing is stiff.
-double largest_frequency(Assembly& assembly, std::span<const double> displacement);
+double largest_frequency(Assembly& assembly, const Configuration& at);
 
 /// dt = (2/w)(sqrt(1 + xi^2) - xi), xi = b w/2: stability of central differences with stiffness damping b
 /// that lags half a step. From the characteristic polynomial at z = -1: w^2 dt^2 + 2 b w^2 dt = 4. Centred
@@ -35,6 +35,6 @@ double stable_step(double frequency, const Damping& damping);
 /// ...); and that of the geometric stiffness of each prestressed part of bars or cables alone (at the
 /// reference state). None but the first is enough, each is necessary: stiffness that is added only raises
 /// frequencies (Courant's minimax principle).
-std::vector<StepBound> step_bounds(Assembly& assembly, std::span<const double> displacement);
+std::vector<StepBound> step_bounds(Assembly& assembly, const Configuration& at);
 
 }  // namespace talus::fem

@@ -17,10 +17,10 @@ constexpr double rise_that_counts = 1.02;
 
 void StepWatch::look(const Moment& moment) {
   const Model& model = assembly_.model();
-  const FrequencyBound bound = frequency_bound(model, moment.displacement);
+  const FrequencyBound bound = frequency_bound(model, moment.at);
   if (moment.step <= stable_step(std::sqrt(bound.squared), model.damping)) return;
   if (bound.squared <= rise_that_counts * cleared_) return;
-  const double limit = stable_step(largest_frequency(assembly_, moment.displacement), model.damping);
+  const double limit = stable_step(largest_frequency(assembly_, moment.at), model.damping);
   if (moment.step > limit)
     throw core::NumericalError(
         {.what = "the step of " + core::readable(moment.step, "s") +

@@ -20,7 +20,7 @@ class StepWatch {
   explicit StepWatch(Assembly& assembly) : assembly_(assembly) {}
 
   struct Moment {
-    std::span<const double> displacement;  ///< m, 3 a node
+    Configuration at;
     double step = 0;                       ///< s, of the steps to come
     double time = 0;                       ///< s
     std::int64_t steps = 0;                ///< taken so far

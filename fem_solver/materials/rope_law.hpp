@@ -46,6 +46,22 @@ class RopeLaw {
     return section_.area * (0.5 * E * e * e + S_pre * e);
   }
   double slack_stretch() const noexcept { return slack_stretch_; }
+  /// The stretch q at a tension (N) above 0, by Newton's method from above: N(q) = (A E/2) q (q^2 - q_0^2) is
+  /// convex, so no step passes the root.
+  double stretch_at(double tension) const noexcept {
+    const double half = 0.5 * section_.area * section_.youngs_modulus,
+                 offset = 2 * section_.prestress / section_.youngs_modulus - 1;  // -q_0^2 where q_0 > 0
+    const double above = std::cbrt(tension / half), q0 = slack_stretch_;
+    const double linear = offset < 0 ? tension / (-2 * half * offset) : tension / (half * offset);
+    double x = std::min(above, linear);  // q - q_0
+    for (int step = 0; step < 60; ++step) {
+      const double q = q0 + x, square = offset < 0 ? x * (2 * q0 + x) : x * x + offset;  // q^2 - q_0^2
+      const double change = (half * q * square - tension) / (half * (square + 2 * q * q));
+      x -= change;
+      if (!(change > 1e-16 * q)) break;
+    }
+    return q0 + x;
+  }
   const AxialSection& section() const noexcept { return section_; }
 
  private:

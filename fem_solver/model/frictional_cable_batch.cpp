@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/errors.hpp"
+
 namespace talus::fem {
 namespace {
 
@@ -10,84 +12,83 @@ double gap_of(const FrictionalCableBatch::Description& description, const RopeLi
   return description.gap > 0 ? description.gap : default_gap(line);
 }
 
+std::vector<double> friction_of(const FrictionalCableBatch::Description& description, const RopeLine& line) {
+  if (line.nodes().front() == line.nodes().back())
+    throw core::ConfigError(
+        "a rope with friction has two ends, but this one closes on itself; let it end beside the node it began at");
+  const auto inner = static_cast<std::size_t>(line.segments()) - 1;
+  return description.friction.size() == 1 ? std::vector<double>(inner, description.friction.front())
+                                          : description.friction;
+}
+
 }  // namespace
 
 FrictionalCableBatch::FrictionalCableBatch(const Description& description,
                                            const std::vector<std::array<Index, 2>>& segments,
                                            std::span<const double> reference)
-    : description_(description),
+    : part_(description.part),
       line_(segments, reference),
       law_(description.part.section),
-      cable_({law_, description.friction, gap_of(description, line_)},
-             static_cast<std::size_t>(line_.segments())) {
-  for (Index e = 0; e < line_.segments(); ++e) kept_.push_back(line_.reference_length(e));
-  next_ = kept_;
+      cable_({law_, friction_of(description, line_), gap_of(description, line_)}) {
+  for (Index e = 0; e < line_.segments(); ++e) initial_.push_back(line_.reference_length(e));
 }
 
-void FrictionalCableBatch::internal_force(std::span<const double> displacement, std::span<double> slots,
-                                          core::Block) const noexcept {
-  const auto chords = line_.chords(displacement);
-  if (!cable_.settle(chords, kept_, next_)) {
-    std::fill_n(slots.begin(), 3 * kept_.size(), std::numeric_limits<double>::quiet_NaN());
+void FrictionalCableBatch::fill_initial_memory(std::span<double> memory) const {
+  std::ranges::copy(initial_, memory.begin());
+  memory[segments()] = 0;
+}
+
+void FrictionalCableBatch::internal_force(const Configuration& at, std::span<double> next,
+                                          std::span<double> slots, core::Block) const noexcept {
+  const auto chords = line_.chords(at.displacement);
+  const auto held = next.first(segments());
+  if (!cable_.settle(chords, material(at), held)) {
+    std::ranges::fill(slots.first(3 * segments()), std::numeric_limits<double>::quiet_NaN());
+    std::ranges::copy(material(at), next.begin());
+    next[segments()] = dissipated(at);
     return;
   }
-  newly_dissipated_ = cable_.energy(chords, kept_) - cable_.energy(chords, next_);
-  cable_.segment_forces(chords, next_,
+  next[segments()] = dissipated(at) + cable_.energy(chords, material(at)) - cable_.energy(chords, held);
+  cable_.segment_forces(chords, held,
                         [&](std::size_t i, const Vector3& force) { Vector3::Map(&slots[3 * i]) = force; });
 }
 
-void FrictionalCableBatch::stiffness_product(std::span<const double> displacement,
-                                             std::span<const double> direction, std::span<double> slots,
-                                             core::Block) const noexcept {
+void FrictionalCableBatch::stiffness_product(const Configuration& at, std::span<const double> direction,
+                                             std::span<double> slots, core::Block) const noexcept {
   cable_.held_stiffness_product(
-      line_.chords(displacement), line_.differences(direction), kept_,
+      line_.chords(at.displacement), line_.differences(direction), material(at),
       [&](std::size_t i, const Vector3& force) { Vector3::Map(&slots[3 * i]) = force; });
 }
 
-double FrictionalCableBatch::energy(std::span<const double> displacement) const noexcept {
-  return cable_.energy(line_.chords(displacement), kept_);
+double FrictionalCableBatch::energy(const Configuration& at) const noexcept {
+  return cable_.energy(line_.chords(at.displacement), material(at));
 }
 
-void FrictionalCableBatch::accept() const noexcept {
-  kept_ = next_;
-  dissipated_ += newly_dissipated_;
-  newly_dissipated_ = 0;
+double FrictionalCableBatch::dissipated(const Configuration& at) const noexcept {
+  return at.memory.empty() ? 0 : at.memory[segments()];
 }
 
-std::vector<double> FrictionalCableBatch::memory() const {
-  std::vector<double> values = kept_;
-  values.push_back(dissipated_);
-  return values;
-}
-
-void FrictionalCableBatch::set_memory(std::span<const double> values) const {
-  std::copy_n(values.begin(), kept_.size(), kept_.begin());
-  next_ = kept_;
-  dissipated_ = values[kept_.size()];
-  newly_dissipated_ = 0;
-}
-
-double FrictionalCableBatch::tension(std::span<const double> displacement, Index segment) const noexcept {
+double FrictionalCableBatch::tension(const Configuration& at, Index segment) const noexcept {
   const auto e = static_cast<std::size_t>(segment);
-  return cable_.tension(line_.chords(displacement)(e), kept_[e]);
+  return cable_.tension(line_.chords(at.displacement)(e), material(at)[e]);
 }
 
-double FrictionalCableBatch::stress(std::span<const double> displacement, Index segment) const noexcept {
+double FrictionalCableBatch::stress(const Configuration& at, Index segment) const noexcept {
   const auto e = static_cast<std::size_t>(segment);
-  return law_.stress(line_.chords(displacement)(e).norm() / kept_[e]);
+  return law_.stress(line_.chords(at.displacement)(e).norm() / material(at)[e]);
 }
 
-double FrictionalCableBatch::length(std::span<const double> displacement) const noexcept {
-  const auto chords = line_.chords(displacement);
+double FrictionalCableBatch::length(const Configuration& at) const noexcept {
+  const auto chords = line_.chords(at.displacement);
   double sum = 0;
   for (std::size_t i = 0; i < chords.size(); ++i) sum += chords(i).norm();
   return sum;
 }
 
-double FrictionalCableBatch::slip(Index segment) const noexcept {
+double FrictionalCableBatch::slip(const Configuration& at, Index segment) const noexcept {
   double passed = 0;
   for (Index e = 0; e <= segment; ++e)
-    passed += line_.reference_length(e) - kept_[static_cast<std::size_t>(e)];
+    passed += initial_[static_cast<std::size_t>(e)] - material(at)[static_cast<std::size_t>(e)];
   return passed;
 }
 

@@ -4,23 +4,24 @@
 #include <vector>
 
 #include "fem_solver/elements/frictional_cable.hpp"
+#include "fem_solver/model/configuration.hpp"
 #include "fem_solver/model/rope_batch.hpp"
 
 namespace talus::fem {
 
 /// A part that is one rope running over its inner nodes with friction. One force slot a segment.
 ///
-/// It remembers how much unstretched rope each segment holds. internal_force() finds the lengths that the
-/// present positions ask for from those kept; accept() keeps them. So a force is a function of the positions
-/// and of what was accepted last.
+/// It remembers how much unstretched rope each segment holds, and what friction has dissipated: a force is a
+/// function of the positions and of the lengths held when the last step was accepted.
 /// @see ElementBatch for the meaning of the members.
 class FrictionalCableBatch {
  public:
   struct Description {
     AxialPart part;
-    double friction = 0;  ///< mu of the capstan equation, > 0
-    double gap = 0;       ///< size of a slider (m); 0: a hundredth of the shortest segment
+    std::vector<double> friction;  ///< mu of each inner node; infinite: clamped. One value: of all
+    double gap = 0;                ///< size of a slider (m); 0: a hundredth of the shortest segment
   };
+  /// @throws core::ConfigError for a rope that closes on itself
   FrictionalCableBatch(const Description& description, const std::vector<std::array<Index, 2>>& segments,
                        std::span<const double> reference);
 
@@ -32,53 +33,51 @@ class FrictionalCableBatch {
     line_.for_each_incidence(visit);
   }
 
-  /// NaN where slip did not converge, so that the run ends with an error.
-  void internal_force(std::span<const double> displacement, std::span<double> slots,
+  std::size_t memory_size() const { return segments() + 1; }
+  void fill_initial_memory(std::span<double> memory) const;
+
+  /// NaN where the positions are, so that the run ends with an error.
+  void internal_force(const Configuration& at, std::span<double> next, std::span<double> slots,
                       core::Block) const noexcept;
   /// With the material held: the stiffest the rope can be, and symmetric.
-  void stiffness_product(std::span<const double> displacement, std::span<const double> direction,
-                         std::span<double> slots, core::Block) const noexcept;
-  void stiffest_product(std::span<const double> displacement, std::span<const double> direction,
-                        std::span<double> slots, core::Block elements) const noexcept {
-    stiffness_product(displacement, direction, slots, elements);
+  void stiffness_product(const Configuration& at, std::span<const double> direction, std::span<double> slots,
+                         core::Block) const noexcept;
+  void stiffest_product(const Configuration& at, std::span<const double> direction, std::span<double> slots,
+                        core::Block elements) const noexcept {
+    stiffness_product(at, direction, slots, elements);
   }
-  double energy(std::span<const double> displacement) const noexcept;
-  void add_mass(std::span<double> node_masses) const noexcept {
-    add_rope_mass(line_, description_.part, node_masses);
-  }
+  double energy(const Configuration& at) const noexcept;
+  void add_mass(std::span<double> node_masses) const noexcept { add_rope_mass(line_, part_, node_masses); }
   /// With the slip that follows; not symmetric.
   template <class Sink>
-  void stiffness(std::span<const double> displacement, const Sink& sink) const {
-    const auto chords = line_.chords(displacement);
-    cable_.settle(chords, kept_, next_);
-    cable_.stiffness(chords, next_, [&](std::size_t i, std::size_t j, const Matrix3& block) {
-      line_.spread_block(i, j, block, sink);
-    });
+  void stiffness(const Configuration& at, const Sink& sink) const {
+    cable_.stiffness(line_.chords(at.displacement), material(at),
+                     [&](std::size_t i, std::size_t j, const Matrix3& block) {
+                       line_.spread_block(i, j, block, sink);
+                     });
   }
+  double dissipated(const Configuration& at) const noexcept;  ///< J
 
-  void accept() const noexcept;
-  std::vector<double> memory() const;
-  void set_memory(std::span<const double> values) const;
-  std::size_t memory_size() const { return kept_.size() + 1; }
-  double dissipated() const noexcept { return dissipated_; }  ///< J; up to the last accept()
-
-  double tension(std::span<const double> displacement, Index segment) const noexcept;
-  double stress(std::span<const double> displacement,
-                Index segment) const noexcept;  ///< Pa, second Piola-Kirchhoff
-  double length(std::span<const double> displacement) const noexcept;
+  double tension(const Configuration& at, Index segment) const noexcept;
+  double stress(const Configuration& at, Index segment) const noexcept;  ///< Pa, second Piola-Kirchhoff
+  double length(const Configuration& at) const noexcept;
   /// Unstretched rope that has passed the inner node behind `segment` since the start, towards the rope's end
   /// (m).
-  double slip(Index segment) const noexcept;
+  double slip(const Configuration& at, Index segment) const noexcept;
   const RopeLine& line() const { return line_; }
 
  private:
-  Description description_;
+  std::size_t segments() const noexcept { return static_cast<std::size_t>(line_.segments()); }
+  /// What each segment holds (m).
+  std::span<const double> material(const Configuration& at) const noexcept {
+    return (at.memory.empty() ? std::span<const double>(initial_) : at.memory).first(segments());
+  }
+
+  AxialPart part_;
   RopeLine line_;
   RopeLaw law_;
-  // The run's state, not the structure's description: changes while the model is constant.
-  mutable FrictionalCable cable_;
-  mutable std::vector<double> kept_, next_;  ///< m; unstretched length in each segment
-  mutable double dissipated_ = 0, newly_dissipated_ = 0;
+  FrictionalCable cable_;
+  std::vector<double> initial_;  ///< m; unstretched length of each segment
 };
 
 }  // namespace talus::fem

@@ -52,7 +52,7 @@ MembraneBatch<Law>::MembraneBatch(const MembranePart& part, const Law& law,
     MembranePatch patch{{}, part.thickness, part.material_axis};
     for (std::size_t corner = 0; corner < 3; ++corner) {
       const Index node = triangles_[e][corner];
-      patch.nodes[corner] = Vector3::Map(&reference[3 * at(node)]);
+      patch.nodes[corner] = Vector3::Map(&reference[3 * place(node)]);
       nodes_[e / Lanes::size()][corner][e % Lanes::size()] = node;
     }
     put(packs_[e / Lanes::size()], e % Lanes::size(), membrane_triangle(patch));
@@ -60,25 +60,25 @@ MembraneBatch<Law>::MembraneBatch(const MembranePart& part, const Law& law,
 }
 
 template <class Law>
-void MembraneBatch<Law>::internal_force(std::span<const double> displacement, std::span<double> slots,
+void MembraneBatch<Law>::internal_force(const Configuration& at, std::span<double> slots,
                                         core::Block elements) const noexcept {
   static_assert(core::default_block_length % lanes == 0, "blocks of elements begin with a pack");
   const auto end = static_cast<Index>((elements.end + lanes - 1) / lanes);
   for (auto pack = static_cast<Index>(elements.begin / lanes); pack < end; ++pack)
-    pack_force(displacement, slots, pack);
+    pack_force(at, slots, pack);
 }
 
 template <class Law>
-void MembraneBatch<Law>::pack_force(std::span<const double> displacement, std::span<double> slots,
+void MembraneBatch<Law>::pack_force(const Configuration& at, std::span<double> slots,
                                     Index pack) const noexcept {
-  const auto& [first, second, third] = nodes_[at(pack)];
-  const MembraneTriangle<Lanes>& triangle = packs_[at(pack)];
-  const auto deformation = triangle.deform({gather_difference(displacement.data(), first, second),
-                                            gather_difference(displacement.data(), first, third)});
+  const auto& [first, second, third] = nodes_[place(pack)];
+  const MembraneTriangle<Lanes>& triangle = packs_[place(pack)];
+  const auto deformation = triangle.deform({gather_difference(at.displacement.data(), first, second),
+                                            gather_difference(at.displacement.data(), first, third)});
   const auto force = triangle.force(deformation, law_.stress(deformation.strain));
   const Index filled = std::min(lanes, size() - pack * lanes);
-  double* slot = &slots[6 * at(pack * lanes)];
-  for (std::size_t lane = 0; lane < at(filled); ++lane)
+  double* slot = &slots[6 * place(pack * lanes)];
+  for (std::size_t lane = 0; lane < place(filled); ++lane)
     for (const Triple<Lanes>& f : force) {
       *slot++ = f.x[lane];
       *slot++ = f.y[lane];
@@ -88,33 +88,33 @@ void MembraneBatch<Law>::pack_force(std::span<const double> displacement, std::s
 
 template <class Law>
 MembraneTriangle<double> MembraneBatch<Law>::triangle(Index e) const noexcept {
-  return take(packs_[at(e / lanes)], at(e % lanes));
+  return take(packs_[place(e / lanes)], place(e % lanes));
 }
 
 template <class Law>
 std::array<Triple<double>, 2> MembraneBatch<Law>::relative(std::span<const double> values,
                                                            Index e) const noexcept {
   const auto difference = [&](Index from, Index to) {
-    const double *a = &values[3 * at(from)], *b = &values[3 * at(to)];
+    const double *a = &values[3 * place(from)], *b = &values[3 * place(to)];
     return Triple<double>{b[0] - a[0], b[1] - a[1], b[2] - a[2]};
   };
-  const auto [first, second, third] = triangles_[at(e)];
+  const auto [first, second, third] = triangles_[place(e)];
   return {difference(first, second), difference(first, third)};
 }
 
 template <class Law>
-MembraneTriangle<double>::Deformation MembraneBatch<Law>::deformation(std::span<const double> displacement,
+MembraneTriangle<double>::Deformation MembraneBatch<Law>::deformation(const Configuration& at,
                                                                       Index e) const noexcept {
-  return triangle(e).deform(relative(displacement, e));
+  return triangle(e).deform(relative(at.displacement, e));
 }
 
 template <class Law>
-void MembraneBatch<Law>::product(std::span<const double> displacement, std::span<const double> direction,
+void MembraneBatch<Law>::product(const Configuration& at, std::span<const double> direction,
                                  const PlaneMatrix& moduli, Index e, std::span<double> slots) const noexcept {
   const MembraneTriangle<double> shape = triangle(e);
-  const auto state = shape.deform(relative(displacement, e));
+  const auto state = shape.deform(relative(at.displacement, e));
   const auto changes = shape.force_change(state, law_.stress(state.strain), moduli, relative(direction, e));
-  double* slot = &slots[6 * at(e)];
+  double* slot = &slots[6 * place(e)];
   for (const Triple<double>& f : changes) {
     *slot++ = f.x;
     *slot++ = f.y;
@@ -123,50 +123,50 @@ void MembraneBatch<Law>::product(std::span<const double> displacement, std::span
 }
 
 template <class Law>
-void MembraneBatch<Law>::stiffness_product(std::span<const double> displacement,
+void MembraneBatch<Law>::stiffness_product(const Configuration& at,
                                            std::span<const double> direction, std::span<double> slots,
                                            core::Block elements) const noexcept {
   for (auto e = static_cast<Index>(elements.begin); e < elements.end; ++e)
-    product(displacement, direction, law_.tangent(deformation(displacement, e).strain), e, slots);
+    product(at, direction, law_.tangent(deformation(at, e).strain), e, slots);
 }
 
 template <class Law>
-void MembraneBatch<Law>::stiffest_product(std::span<const double> displacement,
+void MembraneBatch<Law>::stiffest_product(const Configuration& at,
                                           std::span<const double> direction, std::span<double> slots,
                                           core::Block elements) const noexcept {
   for (auto e = static_cast<Index>(elements.begin); e < elements.end; ++e)
-    product(displacement, direction, law_.stiffest_tangent(), e, slots);
+    product(at, direction, law_.stiffest_tangent(), e, slots);
 }
 
 template <class Law>
-double MembraneBatch<Law>::energy(std::span<const double> displacement) const noexcept {
+double MembraneBatch<Law>::energy(const Configuration& at) const noexcept {
   double sum = 0;
   for (Index e = 0; e < size(); ++e)
-    sum += triangle(e).volume * law_.energy_density(deformation(displacement, e).strain);
+    sum += triangle(e).volume * law_.energy_density(deformation(at, e).strain);
   return sum;
 }
 
 template <class Law>
 void MembraneBatch<Law>::add_mass(std::span<double> node_masses) const noexcept {
   for (Index e = 0; e < size(); ++e)
-    for (const Index node : triangles_[at(e)])
-      node_masses[at(node)] += membrane_node_mass(triangle(e).volume, part_.density);
+    for (const Index node : triangles_[place(e)])
+      node_masses[place(node)] += membrane_node_mass(triangle(e).volume, part_.density);
 }
 
 template <class Law>
-Matrix9 MembraneBatch<Law>::element_stiffness(std::span<const double> displacement, Index e) const {
-  const auto state = deformation(displacement, e);
+Matrix9 MembraneBatch<Law>::element_stiffness(const Configuration& at, Index e) const {
+  const auto state = deformation(at, e);
   return membrane_stiffness(triangle(e), state, law_.stress(state.strain), law_.tangent(state.strain));
 }
 
 template <class Law>
-SheetState MembraneBatch<Law>::state(std::span<const double> displacement, Index e) const noexcept {
-  return law_.state(deformation(displacement, e).strain);
+SheetState MembraneBatch<Law>::state(const Configuration& at, Index e) const noexcept {
+  return law_.state(deformation(at, e).strain);
 }
 
 template <class Law>
-PlaneStress<double> MembraneBatch<Law>::stress(std::span<const double> displacement, Index e) const noexcept {
-  return law_.stress(deformation(displacement, e).strain);
+PlaneStress<double> MembraneBatch<Law>::stress(const Configuration& at, Index e) const noexcept {
+  return law_.stress(deformation(at, e).strain);
 }
 
 template class MembraneBatch<LinearSheet>;

@@ -9,6 +9,7 @@
 #include "fem_solver/materials/exact_wrinkles.hpp"
 #include "fem_solver/materials/principal_wrinkles.hpp"
 #include "fem_solver/materials/tension_field.hpp"
+#include "fem_solver/model/configuration.hpp"
 #include "fem_solver/model/index.hpp"
 
 namespace talus::fem {
@@ -38,7 +39,7 @@ class MembraneBatch {
   template <class Visit>
   void for_each_incidence(const Visit& visit) const {
     for (Index e = 0; e < size(); ++e) {
-      const auto [first, second, third] = triangles_[at(e)];
+      const auto [first, second, third] = triangles_[place(e)];
       visit(first, 2 * e, -1);
       visit(first, 2 * e + 1, -1);
       visit(second, 2 * e, +1);
@@ -46,44 +47,44 @@ class MembraneBatch {
     }
   }
 
-  void internal_force(std::span<const double> displacement, std::span<double> slots,
+  void internal_force(const Configuration& at, std::span<double> slots,
                       core::Block elements) const noexcept;
-  void stiffness_product(std::span<const double> displacement, std::span<const double> direction,
+  void stiffness_product(const Configuration& at, std::span<const double> direction,
                          std::span<double> slots, core::Block elements) const noexcept;
   /// With the moduli of the taut sheet, which those of a wrinkled or slack one never exceed.
-  void stiffest_product(std::span<const double> displacement, std::span<const double> direction,
+  void stiffest_product(const Configuration& at, std::span<const double> direction,
                         std::span<double> slots, core::Block elements) const noexcept;
-  double energy(std::span<const double> displacement) const noexcept;
+  double energy(const Configuration& at) const noexcept;
   void add_mass(std::span<double> node_masses) const noexcept;
 
   /// sink(row node, column node, 3x3 block), the same blocks in the same order whatever the state.
   template <class Sink>
-  void stiffness(std::span<const double> displacement, const Sink& sink) const {
+  void stiffness(const Configuration& at, const Sink& sink) const {
     for (Index e = 0; e < size(); ++e) {
-      const Matrix9 K = element_stiffness(displacement, e);
+      const Matrix9 K = element_stiffness(at, e);
       for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j)
-          sink(triangles_[at(e)][static_cast<std::size_t>(i)], triangles_[at(e)][static_cast<std::size_t>(j)],
+          sink(triangles_[place(e)][static_cast<std::size_t>(i)], triangles_[place(e)][static_cast<std::size_t>(j)],
                Matrix3(K.block<3, 3>(3 * i, 3 * j)));
     }
   }
 
-  SheetState state(std::span<const double> displacement, Index e) const noexcept;
+  SheetState state(const Configuration& at, Index e) const noexcept;
   /// Second Piola-Kirchhoff stress in material axes (Pa).
-  PlaneStress<double> stress(std::span<const double> displacement, Index e) const noexcept;
+  PlaneStress<double> stress(const Configuration& at, Index e) const noexcept;
   const MembranePart& part() const { return part_; }
   MembraneTriangle<double> triangle(Index e) const noexcept;
 
  private:
   static constexpr Index lanes = static_cast<Index>(Lanes::size());
-  static std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+  static std::size_t place(Index i) { return static_cast<std::size_t>(i); }
   std::array<Triple<double>, 2> relative(std::span<const double> values, Index e) const noexcept;
-  MembraneTriangle<double>::Deformation deformation(std::span<const double> displacement,
+  MembraneTriangle<double>::Deformation deformation(const Configuration& at,
                                                     Index e) const noexcept;
-  Matrix9 element_stiffness(std::span<const double> displacement, Index e) const;
-  void pack_force(std::span<const double> displacement, std::span<double> slots, Index pack) const noexcept;
+  Matrix9 element_stiffness(const Configuration& at, Index e) const;
+  void pack_force(const Configuration& at, std::span<double> slots, Index pack) const noexcept;
   /// Slots of K times a direction with the given moduli.
-  void product(std::span<const double> displacement, std::span<const double> direction,
+  void product(const Configuration& at, std::span<const double> direction,
                const PlaneMatrix& moduli, Index e, std::span<double> slots) const noexcept;
 
   MembranePart part_;

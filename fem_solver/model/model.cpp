@@ -17,73 +17,46 @@ double TimeTable::at(double time) const {
   return f0 + (f1 - f0) * (time - t0) / (t1 - t0);
 }
 
-namespace {
-
-template <class Batch>
-constexpr bool remembers = requires(const Batch& batch) {
-  batch.accept();
-};
-
-double dissipated(const FrictionalCableBatch& batch, std::span<const double>) {
-  return batch.dissipated();
-}
-template <class Law>
-double dissipated(const PathBatch<Law>& batch, std::span<const double> displacement) {
-  return batch.dissipated(displacement);
-}
-
-/// visit(batch) for every part whose elements remember.
-template <class Visit>
-void for_each_memory(const Model& model, const Visit& visit) {
+std::vector<double> initial_memory(const Model& model) {
+  std::vector<double> memory;
   for (const auto& part : model.parts)
     std::visit(
         [&](const auto& batch) {
-          if constexpr (remembers<std::decay_t<decltype(batch)>>) visit(batch);
+          if constexpr (Remembers<std::decay_t<decltype(batch)>>) {
+            memory.resize(memory.size() + batch.memory_size());
+            batch.fill_initial_memory(std::span(memory).last(batch.memory_size()));
+          }
         },
         part.elements);
-}
-
-}  // namespace
-
-void accept_memory(const Model& model) noexcept {
-  for_each_memory(model, [](const auto& batch) { batch.accept(); });
-}
-
-std::vector<double> element_memory(const Model& model) {
-  std::vector<double> values;
-  for_each_memory(model, [&](const auto& batch) {
-    const std::vector<double> kept = batch.memory();
-    values.insert(values.end(), kept.begin(), kept.end());
-  });
-  return values;
-}
-
-void restore_element_memory(const Model& model, std::span<const double> values) {
-  std::size_t begin = 0;
-  for_each_memory(model, [&](const auto& batch) {
-    batch.set_memory(values.subspan(begin, batch.memory_size()));
-    begin += batch.memory_size();
-  });
-}
-
-void archive_element_memory(core::StateArchive& archive, const Model& model) {
-  std::vector<double> memory = element_memory(model);
-  archive.values("element_memory", memory);
-  restore_element_memory(model, memory);
+  return memory;
 }
 
 bool dissipates(const ElementBatch& elements) {
-  return std::visit([](const auto& batch) { return remembers<std::decay_t<decltype(batch)>>; }, elements);
+  return std::visit([](const auto& batch) { return Remembers<std::decay_t<decltype(batch)>>; }, elements);
 }
 
-std::vector<double> dissipated_by_parts(const Model& model, std::span<const double> displacement) {
+Configuration configuration_of(const Model& model, const Part& part, const Configuration& at) {
+  Configuration found = at;
+  const auto number = static_cast<std::size_t>(&part - model.parts.data());
+  for_each_part(model, at, [&](std::size_t p, const auto&, const Configuration& own) {
+    if (p == number) found = own;
+  });
+  return found;
+}
+
+std::vector<double> elastic_by_parts(const Model& model, const Configuration& at) {
+  std::vector<double> joules;
+  for_each_part(model, at, [&](std::size_t, const auto& batch, const Configuration& own) {
+    joules.push_back(batch.energy(own));
+  });
+  return joules;
+}
+
+std::vector<double> dissipated_by_parts(const Model& model, const Configuration& at) {
   std::vector<double> joules(model.parts.size(), 0.0);
-  for (std::size_t p = 0; p < model.parts.size(); ++p)
-    std::visit(
-        [&](const auto& batch) {
-          if constexpr (remembers<std::decay_t<decltype(batch)>>) joules[p] = dissipated(batch, displacement);
-        },
-        model.parts[p].elements);
+  for_each_part(model, at, [&](std::size_t p, const auto& batch, const Configuration& own) {
+    if constexpr (Remembers<std::decay_t<decltype(batch)>>) joules[p] = batch.dissipated(own);
+  });
   return joules;
 }
 

@@ -8,7 +8,7 @@
 #include <variant>
 #include <vector>
 
-#include "core/output/checkpoint.hpp"
+#include "fem_solver/model/configuration.hpp"
 #include "fem_solver/model/frictional_cable_batch.hpp"
 #include "fem_solver/model/membrane_batch.hpp"
 #include "fem_solver/model/path_batch.hpp"
@@ -19,13 +19,16 @@
 /// The structure as arrays: what the scene describes, free of YAML, time integration and output.
 namespace talus::fem {
 
-/// The elements of one part. Every alternative offers, with `displacement` 3 a node (m):
-///   size(), slots()                       elements, and force vectors they write
-///   for_each_incidence(visit)             visit(node, slot, sign): which slots sum up to a node's force, in
-///   a fixed order internal_force(u, slots, range)       dU/du of the elements of a range (N); noexcept, no
-///   allocation stiffness_product(u, w, slots, range) (d2U/du2) w stiffness(u, sink) d2U/du2 as 3x3 blocks
-///   energy(u)                             U (J), zero at the reference state
-///   add_mass(node_masses)                 lumped (kg)
+/// The elements of one part. Every alternative offers, for a Configuration `at`:
+///   size(), slots()                        elements, and force vectors they write
+///   for_each_incidence(visit)              visit(node, slot, sign): which slots sum up to a node's force, in
+///                                          a fixed order
+///   internal_force(at, slots, range)       dU/du of the elements of a range (N); noexcept, no allocation
+///   stiffness_product(at, w, slots, range) (d2U/du2) w
+///   stiffness(at, sink)                    d2U/du2 as 3x3 blocks
+///   energy(at)                             U (J), zero at the reference state
+///   add_mass(node_masses)                  lumped (kg)
+/// What elements remember besides: Remembers in configuration.hpp.
 using ElementBatch = std::variant<BarBatch, CableBatch, SlidingCableBatch, PlainMembraneBatch,
                                   TensionFieldBatch, PrincipalTensionFieldBatch, FrictionalCableBatch,
                                   BrakeBatch, ElasticPlasticBatch, PenaltySlideBatch>;
@@ -94,19 +97,39 @@ struct Model {
   Vector3 position(Index node) const { return Vector3::Map(&reference[3 * static_cast<std::size_t>(node)]); }
 };
 
-/// Keeps what elements with a memory (friction, brakes, plasticity) made of the last internal force. To be
-/// called once a step, after the force at an accepted state.
-void accept_memory(const Model& model) noexcept;
-/// All that elements remember, part by part; part of a run's state as displacements are. Empty where nothing
-/// remembers.
-std::vector<double> element_memory(const Model& model);
-/// @pre values come from element_memory() of this model
-void restore_element_memory(const Model& model, std::span<const double> values);
-/// Writes or reads that memory as a part of a state.
-void archive_element_memory(core::StateArchive& archive, const Model& model);
+/// What the elements remember before the first step, part by part; empty where nothing remembers.
+std::vector<double> initial_memory(const Model& model);
 
+/// How many numbers of memory a batch has.
+template <class Batch>
+std::size_t memory_size_of(const Batch& batch) {
+  if constexpr (Remembers<Batch>)
+    return batch.memory_size();
+  else
+    return 0;
+}
+/// visit(number of the part, batch, the part's own configuration) for every part in turn.
+template <class Visit>
+void for_each_part(const Model& model, const Configuration& at, const Visit& visit) {
+  std::size_t begin = 0;
+  for (std::size_t p = 0; p < model.parts.size(); ++p)
+    std::visit(
+        [&](const auto& batch) {
+          const std::size_t size = memory_size_of(batch);
+          const auto own = at.memory.empty() ? at.memory : at.memory.subspan(begin, size);
+          visit(p, batch, Configuration(at.displacement, own));
+          begin += size;
+        },
+        model.parts[p].elements);
+}
+
+/// What the elements of one part are asked at.
+Configuration configuration_of(const Model& model, const Part& part, const Configuration& at);
+
+/// What each part stores (J).
+std::vector<double> elastic_by_parts(const Model& model, const Configuration& at);
 /// What each part has dissipated by friction or plastic work (J), 0 for those that do not.
-std::vector<double> dissipated_by_parts(const Model& model, std::span<const double> displacement);
+std::vector<double> dissipated_by_parts(const Model& model, const Configuration& at);
 /// Whether a part can dissipate.
 bool dissipates(const ElementBatch& elements);
 

@@ -13,62 +13,60 @@ PathBatch<Law>::PathBatch(Description description, std::vector<std::array<Index,
     reference_.insert(reference_.end(), span.begin(), span.end());
     lengths_.push_back(span.norm());
   }
-  kept_.assign(segments_.size(), 0.0);
-  next_ = kept_;
 }
 
 template <class Law>
-void PathBatch<Law>::internal_force(std::span<const double> displacement, std::span<double> slots,
-                                    core::Block elements) const noexcept {
+void PathBatch<Law>::internal_force(const Configuration& at, std::span<double> next,
+                                    std::span<double> slots, core::Block elements) const noexcept {
   for (auto e = static_cast<Index>(elements.begin); e < elements.end; ++e) {
-    const Vector3 d = chord(displacement, e);
-    const AxialResponse response = segment(e).respond(d, kept_[at(e)]);
-    next_[at(e)] = response.history;
-    Vector3::Map(&slots[3 * at(e)]) = segment(e).force(d, response);
+    const Vector3 d = chord(at.displacement, e);
+    const AxialResponse response = segment(e).respond(d, kept(at, e));
+    next[place(e)] = response.history;
+    Vector3::Map(&slots[3 * place(e)]) = segment(e).force(d, response);
   }
 }
 
 template <class Law>
-void PathBatch<Law>::stiffness_product(std::span<const double> displacement,
+void PathBatch<Law>::stiffness_product(const Configuration& at,
                                        std::span<const double> direction, std::span<double> slots,
                                        core::Block elements) const noexcept {
   for (auto e = static_cast<Index>(elements.begin); e < elements.end; ++e) {
-    const Vector3 d = chord(displacement, e);
-    Vector3::Map(&slots[3 * at(e)]) =
-        segment(e).stiffness(d, segment(e).respond(d, kept_[at(e)])) * difference(direction, e);
+    const Vector3 d = chord(at.displacement, e);
+    Vector3::Map(&slots[3 * place(e)]) =
+        segment(e).stiffness(d, segment(e).respond(d, kept(at, e))) * difference(direction, e);
   }
 }
 
 template <class Law>
-void PathBatch<Law>::stiffest_product(std::span<const double> displacement, std::span<const double> direction,
+void PathBatch<Law>::stiffest_product(const Configuration& at, std::span<const double> direction,
                                       std::span<double> slots, core::Block elements) const noexcept {
   for (auto e = static_cast<Index>(elements.begin); e < elements.end; ++e) {
-    const Vector3 d = chord(displacement, e);
-    AxialResponse response = segment(e).respond(d, kept_[at(e)]);
-    response.slope = description_.law.stiffest_slope({d.norm(), lengths_[at(e)]}, response.force);
-    Vector3::Map(&slots[3 * at(e)]) = segment(e).stiffness(d, response) * difference(direction, e);
+    const Vector3 d = chord(at.displacement, e);
+    AxialResponse response = segment(e).respond(d, kept(at, e));
+    response.slope = description_.law.stiffest_slope({d.norm(), lengths_[place(e)]}, response.force);
+    Vector3::Map(&slots[3 * place(e)]) = segment(e).stiffness(d, response) * difference(direction, e);
   }
 }
 
 template <class Law>
-double PathBatch<Law>::energy(std::span<const double> displacement) const noexcept {
+double PathBatch<Law>::energy(const Configuration& at) const noexcept {
   double sum = 0;
-  for (Index e = 0; e < size(); ++e) sum += segment(e).stored(chord(displacement, e), kept_[at(e)]);
+  for (Index e = 0; e < size(); ++e) sum += segment(e).stored(chord(at.displacement, e), kept(at, e));
   return sum;
 }
 
 template <class Law>
-double PathBatch<Law>::dissipated(std::span<const double> displacement) const noexcept {
+double PathBatch<Law>::dissipated(const Configuration& at) const noexcept {
   double sum = 0;
-  for (Index e = 0; e < size(); ++e) sum += segment(e).dissipated(chord(displacement, e), kept_[at(e)]);
+  for (Index e = 0; e < size(); ++e) sum += segment(e).dissipated(chord(at.displacement, e), kept(at, e));
   return sum;
 }
 
 template <class Law>
 void PathBatch<Law>::add_mass(std::span<double> node_masses) const noexcept {
   for (Index e = 0; e < size(); ++e)
-    for (const Index node : segments_[at(e)])
-      node_masses[at(node)] += 0.5 * description_.mass_per_length * lengths_[at(e)];
+    for (const Index node : segments_[place(e)])
+      node_masses[place(node)] += 0.5 * description_.mass_per_length * lengths_[place(e)];
 }
 
 template class PathBatch<BrakeLaw>;

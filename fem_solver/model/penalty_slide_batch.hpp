@@ -7,6 +7,7 @@
 #include "core/parallel.hpp"
 #include "fem_solver/constraints/penalty_sliding.hpp"
 #include "fem_solver/elements/axial.hpp"
+#include "fem_solver/model/configuration.hpp"
 #include "fem_solver/model/slide_line.hpp"
 
 namespace talus::fem {
@@ -32,31 +33,31 @@ class PenaltySlideBatch {
     for (const Index node : line_.rope) visit(node, slot++, +1);
   }
 
-  void internal_force(std::span<const double> displacement, std::span<double> slots,
+  void internal_force(const Configuration& at, std::span<double> slots,
                       core::Block) const noexcept;
-  void stiffness_product(std::span<const double> displacement, std::span<const double> direction,
+  void stiffness_product(const Configuration& at, std::span<const double> direction,
                          std::span<double> slots, core::Block) const noexcept;
   /// As if every slider stood at the rope node nearest to it, where its spring has only that node's mass to
   /// pull; without the geometric part, a share gap/segment of the rest.
-  void stiffest_product(std::span<const double> displacement, std::span<const double> direction,
+  void stiffest_product(const Configuration& at, std::span<const double> direction,
                         std::span<double> slots, core::Block elements) const noexcept;
-  double energy(std::span<const double> displacement) const noexcept;
+  double energy(const Configuration& at) const noexcept;
   void add_mass(std::span<double>) const noexcept {}
   /// Distance of slider k from the rope (m).
-  double gap(std::span<const double> displacement, std::size_t slider) const noexcept;
+  double gap(const Configuration& at, std::size_t slider) const noexcept;
   /// Force between slider k and the rope (N).
-  double force(std::span<const double> displacement, std::size_t slider) const noexcept {
-    return penalty_ * gap(displacement, slider);
+  double force(const Configuration& at, std::size_t slider) const noexcept {
+    return penalty_ * gap(at, slider);
   }
   /// Place of slider k along the rope: its current length from the first node to the slider's foot (m).
-  double place(std::span<const double> displacement, std::size_t slider) const noexcept;
+  double place(const Configuration& at, std::size_t slider) const noexcept;
 
   /// Every pair of a slider and a rope node, and of neighbouring rope nodes, gets a block; those not in touch
   /// are zero.
   template <class Sink>
-  void stiffness(std::span<const double> displacement, const Sink& sink) const {
+  void stiffness(const Configuration& at, const Sink& sink) const {
     for (std::size_t k = 0; k < line_.sliders.size(); ++k) {
-      const auto [segment, spring] = contact(displacement, k);
+      const auto [segment, spring] = contact(at, k);
       const PenaltySlide::Matrix9 K = spring.stiffness();
       const auto block = [&](int i, int j) { return Matrix3(K.block<3, 3>(3 * i, 3 * j)); };
       const Index slider = line_.sliders[k];
@@ -76,16 +77,16 @@ class PenaltySlideBatch {
 
  private:
   static Matrix3 zero() { return Matrix3::Zero(); }
-  Vector3 position(std::span<const double> displacement, Index node) const noexcept;
+  Vector3 position(const Configuration& at, Index node) const noexcept;
   /// A slider's spring at the segment of the rope that is nearest to it.
   struct Contact {
     std::size_t segment = 0;
     PenaltySlide spring;
   };
-  Contact contact(std::span<const double> displacement, std::size_t slider) const noexcept;
+  Contact contact(const Configuration& at, std::size_t slider) const noexcept;
   /// Fills the slots with force_on(slider, contact): forces on the segment's two nodes and on the slider.
   template <class ForceOn>
-  void fill_slots(std::span<const double> displacement, std::span<double> slots,
+  void fill_slots(const Configuration& at, std::span<double> slots,
                   ForceOn&& force_on) const noexcept;
 
   SlideLine line_;

@@ -70,25 +70,25 @@ auto into(std::span<double> slots) noexcept {
 
 }  // namespace
 
-void SlidingCableBatch::internal_force(std::span<const double> displacement, std::span<double> slots,
+void SlidingCableBatch::internal_force(const Configuration& at, std::span<double> slots,
                                        core::Block) const noexcept {
-  cable_.segment_forces(line_.chords(displacement), into(slots));
+  cable_.segment_forces(line_.chords(at.displacement), into(slots));
 }
 
-void SlidingCableBatch::stiffness_product(std::span<const double> displacement,
+void SlidingCableBatch::stiffness_product(const Configuration& at,
                                           std::span<const double> direction, std::span<double> slots,
                                           core::Block) const noexcept {
-  cable_.stiffness_product(line_.chords(displacement), line_.differences(direction), into(slots));
+  cable_.stiffness_product(line_.chords(at.displacement), line_.differences(direction), into(slots));
 }
 
-void SlidingCableBatch::stiffest_product(std::span<const double> displacement,
+void SlidingCableBatch::stiffest_product(const Configuration& at,
                                          std::span<const double> direction, std::span<double> slots,
                                          core::Block) const noexcept {
-  cable_.taut_stiffness_product(line_.chords(displacement), line_.differences(direction), into(slots));
+  cable_.taut_stiffness_product(line_.chords(at.displacement), line_.differences(direction), into(slots));
 }
 
-double SlidingCableBatch::stress(std::span<const double> displacement) const noexcept {
-  return cable_.law.stress(cable_.length(line_.chords(displacement)) / cable_.reference_length);
+double SlidingCableBatch::stress(const Configuration& at) const noexcept {
+  return cable_.law.stress(cable_.length(line_.chords(at.displacement)) / cable_.reference_length);
 }
 
 }  // namespace talus::fem

@@ -90,32 +90,32 @@ class SlidingCableBatch {
     line_.for_each_incidence(visit);
   }
 
-  void internal_force(std::span<const double> displacement, std::span<double> slots,
+  void internal_force(const Configuration& at, std::span<double> slots,
                       core::Block) const noexcept;
-  void stiffness_product(std::span<const double> displacement, std::span<const double> direction,
+  void stiffness_product(const Configuration& at, std::span<const double> direction,
                          std::span<double> slots, core::Block) const noexcept;
   /// As if the rope were taut.
-  void stiffest_product(std::span<const double> displacement, std::span<const double> direction,
+  void stiffest_product(const Configuration& at, std::span<const double> direction,
                         std::span<double> slots, core::Block) const noexcept;
-  double energy(std::span<const double> displacement) const noexcept {
-    return cable_.energy(line_.chords(displacement));
+  double energy(const Configuration& at) const noexcept {
+    return cable_.energy(line_.chords(at.displacement));
   }
   void add_mass(std::span<double> node_masses) const noexcept { add_rope_mass(line_, part_, node_masses); }
   template <class Sink>
-  void stiffness(std::span<const double> displacement, const Sink& sink) const {
-    cable_.stiffness(line_.chords(displacement), [&](std::size_t i, std::size_t j, const Matrix3& block) {
+  void stiffness(const Configuration& at, const Sink& sink) const {
+    cable_.stiffness(line_.chords(at.displacement), [&](std::size_t i, std::size_t j, const Matrix3& block) {
       line_.spread_block(i, j, block, sink);
     });
   }
 
   /// The same in every segment (N).
-  double tension(std::span<const double> displacement) const noexcept {
-    return cable_.tension(line_.chords(displacement));
+  double tension(const Configuration& at) const noexcept {
+    return cable_.tension(line_.chords(at.displacement));
   }
-  double length(std::span<const double> displacement) const noexcept {
-    return cable_.length(line_.chords(displacement));
+  double length(const Configuration& at) const noexcept {
+    return cable_.length(line_.chords(at.displacement));
   }
-  double stress(std::span<const double> displacement) const noexcept;  ///< Pa, second Piola-Kirchhoff
+  double stress(const Configuration& at) const noexcept;  ///< Pa, second Piola-Kirchhoff
   const RopeLine& line() const { return line_; }
   const AxialPart& part() const { return part_; }
 

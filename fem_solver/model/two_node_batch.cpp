@@ -12,49 +12,49 @@ TwoNodeBatch<Compression>::TwoNodeBatch(const AxialPart& part, std::vector<std::
   inverse_length_.resize(segments_.size());
   for (Index e = 0; e < size(); ++e) {
     const Vector3 span = difference(reference, e);
-    Vector3::Map(&reference_[3 * at(e)]) = span;
-    inverse_length_[at(e)] = 1 / span.norm();
+    Vector3::Map(&reference_[3 * place(e)]) = span;
+    inverse_length_[place(e)] = 1 / span.norm();
   }
 }
 
 template <class Compression>
-void TwoNodeBatch<Compression>::internal_force(std::span<const double> displacement, std::span<double> slots,
+void TwoNodeBatch<Compression>::internal_force(const Configuration& at, std::span<double> slots,
                                                core::Block elements) const noexcept {
   for (auto e = static_cast<Index>(elements.begin); e < elements.end; ++e)
-    Vector3::Map(&slots[3 * at(e)]) = element(e).force(difference(displacement, e));
+    Vector3::Map(&slots[3 * place(e)]) = element(e).force(difference(at.displacement, e));
 }
 
 template <class Compression>
-void TwoNodeBatch<Compression>::stiffness_product(std::span<const double> displacement,
+void TwoNodeBatch<Compression>::stiffness_product(const Configuration& at,
                                                   std::span<const double> direction, std::span<double> slots,
                                                   core::Block elements) const noexcept {
   for (auto e = static_cast<Index>(elements.begin); e < elements.end; ++e)
-    Vector3::Map(&slots[3 * at(e)]) =
-        element(e).stiffness_product(difference(displacement, e), difference(direction, e));
+    Vector3::Map(&slots[3 * place(e)]) =
+        element(e).stiffness_product(difference(at.displacement, e), difference(direction, e));
 }
 
 template <class Compression>
-void TwoNodeBatch<Compression>::stiffest_product(std::span<const double> displacement,
+void TwoNodeBatch<Compression>::stiffest_product(const Configuration& at,
                                                  std::span<const double> direction, std::span<double> slots,
                                                  core::Block elements) const noexcept {
   for (auto e = static_cast<Index>(elements.begin); e < elements.end; ++e)
-    Vector3::Map(&slots[3 * at(e)]) =
-        element(e).stiffest_product(difference(displacement, e), difference(direction, e));
+    Vector3::Map(&slots[3 * place(e)]) =
+        element(e).stiffest_product(difference(at.displacement, e), difference(direction, e));
 }
 
 template <class Compression>
-double TwoNodeBatch<Compression>::energy(std::span<const double> displacement) const noexcept {
+double TwoNodeBatch<Compression>::energy(const Configuration& at) const noexcept {
   double sum = 0;
-  for (Index e = 0; e < size(); ++e) sum += element(e).energy(difference(displacement, e));
+  for (Index e = 0; e < size(); ++e) sum += element(e).energy(difference(at.displacement, e));
   return sum;
 }
 
 template <class Compression>
 void TwoNodeBatch<Compression>::add_mass(std::span<double> node_masses) const noexcept {
   for (Index e = 0; e < size(); ++e) {
-    const double half = 0.5 * part_.density * part_.section.area / inverse_length_[at(e)];
-    node_masses[at(segments_[at(e)][0])] += half;
-    node_masses[at(segments_[at(e)][1])] += half;
+    const double half = 0.5 * part_.density * part_.section.area / inverse_length_[place(e)];
+    node_masses[place(segments_[place(e)][0])] += half;
+    node_masses[place(segments_[place(e)][1])] += half;
   }
 }
 

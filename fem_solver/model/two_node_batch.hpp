@@ -6,6 +6,7 @@
 
 #include "core/parallel.hpp"
 #include "fem_solver/elements/axial.hpp"
+#include "fem_solver/model/configuration.hpp"
 #include "fem_solver/model/index.hpp"
 #include "fem_solver/model/pair_incidence.hpp"
 
@@ -37,54 +38,54 @@ class TwoNodeBatch {
     for_each_pair_incidence(segments_, visit);
   }
 
-  void internal_force(std::span<const double> displacement, std::span<double> slots,
+  void internal_force(const Configuration& at, std::span<double> slots,
                       core::Block elements) const noexcept;
-  void stiffness_product(std::span<const double> displacement, std::span<const double> direction,
+  void stiffness_product(const Configuration& at, std::span<const double> direction,
                          std::span<double> slots, core::Block elements) const noexcept;
-  void stiffest_product(std::span<const double> displacement, std::span<const double> direction,
+  void stiffest_product(const Configuration& at, std::span<const double> direction,
                         std::span<double> slots, core::Block elements) const noexcept;
-  double energy(std::span<const double> displacement) const noexcept;
+  double energy(const Configuration& at) const noexcept;
   void add_mass(std::span<double> node_masses) const noexcept;
 
   /// sink(row node, column node, 3x3 block), the same blocks in the same order whatever the state.
   template <class Sink>
-  void stiffness(std::span<const double> displacement, const Sink& sink) const {
+  void stiffness(const Configuration& at, const Sink& sink) const {
     for (Index e = 0; e < size(); ++e) {
-      const Matrix3 K = element(e).stiffness(difference(displacement, e));
-      spread_pair_block(segments_[at(e)], segments_[at(e)], K, sink);
+      const Matrix3 K = element(e).stiffness(difference(at.displacement, e));
+      spread_pair_block(segments_[place(e)], segments_[place(e)], K, sink);
     }
   }
 
-  double axial_force(std::span<const double> displacement, Index e) const noexcept {
-    return element(e).axial_force(difference(displacement, e));
+  double axial_force(const Configuration& at, Index e) const noexcept {
+    return element(e).axial_force(difference(at.displacement, e));
   }
   /// Second Piola-Kirchhoff stress (Pa).
-  double stress(std::span<const double> displacement, Index e) const noexcept {
+  double stress(const Configuration& at, Index e) const noexcept {
     const AxialElement<Compression> bar = element(e);
-    return Compression::stress(bar.trial_stress(bar.strain(difference(displacement, e))));
+    return Compression::stress(bar.trial_stress(bar.strain(difference(at.displacement, e))));
   }
   /// Moduli that carry waves along and across an element (Pa, per reference area); along as if a cable were
   /// taut.
   struct WaveModuli {
     double along, across;
   };
-  WaveModuli wave_moduli(std::span<const double> displacement, Index e) const noexcept {
+  WaveModuli wave_moduli(const Configuration& at, Index e) const noexcept {
     const AxialElement<Compression> bar = element(e);
-    const double strain = bar.strain(difference(displacement, e)), trial = bar.trial_stress(strain);
+    const double strain = bar.strain(difference(at.displacement, e)), trial = bar.trial_stress(strain);
     const double stress = Compression::stress(trial);
     return {part_.section.youngs_modulus * (1 + 2 * strain) + stress, stress};
   }
-  double reference_length(Index e) const noexcept { return 1 / inverse_length_[at(e)]; }
+  double reference_length(Index e) const noexcept { return 1 / inverse_length_[place(e)]; }
   const AxialPart& part() const { return part_; }
   AxialElement<Compression> element(Index e) const noexcept {
-    return {Vector3::Map(&reference_[3 * at(e)]), inverse_length_[at(e)], part_.section};
+    return {Vector3::Map(&reference_[3 * place(e)]), inverse_length_[place(e)], part_.section};
   }
 
  private:
-  static std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+  static std::size_t place(Index i) { return static_cast<std::size_t>(i); }
   Vector3 difference(std::span<const double> values, Index e) const noexcept {
-    const auto [near, far] = segments_[at(e)];
-    return Vector3::Map(&values[3 * at(far)]) - Vector3::Map(&values[3 * at(near)]);
+    const auto [near, far] = segments_[place(e)];
+    return Vector3::Map(&values[3 * place(far)]) - Vector3::Map(&values[3 * place(near)]);
   }
 
   AxialPart part_;

@@ -5,19 +5,19 @@
 namespace talus::fem {
 namespace {
 
-using Displacement = std::span<const double>;
+using At = const Configuration&;
 
 /// A value that every cell of a batch has, or that the batch has as a whole.
 template <class Batch>
 struct CellQuantity {
   const char* name;
   const char* unit;
-  double (*value)(const Batch&, Displacement, Index cell);
+  double (*value)(const Batch&, At, Index cell);
 };
 template <class Batch>
 struct PartQuantity {
   const char* name;
-  double (*value)(const Batch&, Displacement);
+  double (*value)(const Batch&, At);
 };
 
 /// The largest of a cell value.
@@ -33,9 +33,9 @@ struct Quantities {
   using Batch = TwoNodeBatch<Compression>;
   static constexpr core::CellKind kind = core::CellKind::segment;
   static constexpr CellQuantity<Batch> cells[] = {
-      {"axial_force", "N", [](const Batch& b, Displacement u, Index e) { return b.axial_force(u, e); }},
-      {"stress", "Pa", [](const Batch& b, Displacement u, Index e) { return b.stress(u, e); }}};
-  static constexpr PartQuantity<Batch> whole[] = {{"axial_force_max_N", [](const Batch& b, Displacement u) {
+      {"axial_force", "N", [](const Batch& b, At u, Index e) { return b.axial_force(u, e); }},
+      {"stress", "Pa", [](const Batch& b, At u, Index e) { return b.stress(u, e); }}};
+  static constexpr PartQuantity<Batch> whole[] = {{"axial_force_max_N", [](const Batch& b, At u) {
                                                      return largest(
                                                          b, [&](Index e) { return b.axial_force(u, e); });
                                                    }}};
@@ -45,38 +45,38 @@ struct RopeQuantities {
   using Batch = SlidingCableBatch;
   static constexpr core::CellKind kind = core::CellKind::segment;
   static constexpr CellQuantity<Batch> cells[] = {
-      {"axial_force", "N", [](const Batch& b, Displacement u, Index) { return b.tension(u); }},
-      {"stress", "Pa", [](const Batch& b, Displacement u, Index) { return b.stress(u); }}};
+      {"axial_force", "N", [](const Batch& b, At u, Index) { return b.tension(u); }},
+      {"stress", "Pa", [](const Batch& b, At u, Index) { return b.stress(u); }}};
   static constexpr PartQuantity<Batch> whole[] = {
-      {"axial_force_max_N", [](const Batch& b, Displacement u) { return b.tension(u); }},
+      {"axial_force_max_N", [](const Batch& b, At u) { return b.tension(u); }},
       {"elongation_m",
-       [](const Batch& b, Displacement u) { return b.length(u) - b.line().reference_length(); }}};
+       [](const Batch& b, At u) { return b.length(u) - b.line().reference_length(); }}};
 };
 
 struct FrictionalRopeQuantities {
   using Batch = FrictionalCableBatch;
   static constexpr core::CellKind kind = core::CellKind::segment;
   static constexpr CellQuantity<Batch> cells[] = {
-      {"axial_force", "N", [](const Batch& b, Displacement u, Index e) { return b.tension(u, e); }},
-      {"stress", "Pa", [](const Batch& b, Displacement u, Index e) { return b.stress(u, e); }},
-      {"slip", "m", [](const Batch& b, Displacement, Index e) { return b.slip(e); }}};
+      {"axial_force", "N", [](const Batch& b, At u, Index e) { return b.tension(u, e); }},
+      {"stress", "Pa", [](const Batch& b, At u, Index e) { return b.stress(u, e); }},
+      {"slip", "m", [](const Batch& b, At u, Index e) { return b.slip(u, e); }}};
   static constexpr PartQuantity<Batch> whole[] = {
       {"axial_force_max_N",
-       [](const Batch& b, Displacement u) {
+       [](const Batch& b, At u) {
          double result = 0;
          for (Index e = 0; e < b.line().segments(); ++e) result = std::max(result, b.tension(u, e));
          return result;
        }},
       {"elongation_m",
-       [](const Batch& b, Displacement u) { return b.length(u) - b.line().reference_length(); }},
+       [](const Batch& b, At u) { return b.length(u) - b.line().reference_length(); }},
       {"slip_max_m",
-       [](const Batch& b, Displacement) {
+       [](const Batch& b, At u) {
          double result = 0;
          for (Index e = 0; e < b.line().segments(); ++e)
-           if (std::abs(b.slip(e)) > std::abs(result)) result = b.slip(e);
+           if (std::abs(b.slip(u, e)) > std::abs(result)) result = b.slip(u, e);
          return result;
        }},
-      {"friction_J", [](const Batch& b, Displacement) { return b.dissipated(); }}};
+      {"friction_J", [](const Batch& b, At u) { return b.dissipated(u); }}};
 };
 
 /// Brakes and elastic-plastic ropes; what is kept is the travel (m) of the one, the plastic strain of the
@@ -87,18 +87,18 @@ struct PathQuantities {
   static constexpr bool is_brake = std::is_same_v<Law, BrakeLaw>;
   static constexpr core::CellKind kind = core::CellKind::segment;
   static constexpr CellQuantity<Batch> cells[] = {
-      {"axial_force", "N", [](const Batch& b, Displacement u, Index e) { return b.axial_force(u, e); }},
-      {"elongation", "m", [](const Batch& b, Displacement u, Index e) { return b.elongation(u, e); }},
+      {"axial_force", "N", [](const Batch& b, At u, Index e) { return b.axial_force(u, e); }},
+      {"elongation", "m", [](const Batch& b, At u, Index e) { return b.elongation(u, e); }},
       {is_brake ? "brake_travel" : "plastic_strain", is_brake ? "m" : "1",
-       [](const Batch& b, Displacement, Index e) { return b.kept(e); }}};
+       [](const Batch& b, At u, Index e) { return b.kept(u, e); }}};
   static constexpr PartQuantity<Batch> whole[] = {
       {"axial_force_max_N",
-       [](const Batch& b, Displacement u) {
+       [](const Batch& b, At u) {
          return largest(b, [&](Index e) { return b.axial_force(u, e); });
        }},
       {is_brake ? "travel_max_m" : "plastic_strain_max_1",
-       [](const Batch& b, Displacement) { return largest(b, [&](Index e) { return b.kept(e); }); }},
-      {"dissipated_J", [](const Batch& b, Displacement u) { return b.dissipated(u); }}};
+       [](const Batch& b, At u) { return largest(b, [&](Index e) { return b.kept(u, e); }); }},
+      {"dissipated_J", [](const Batch& b, At u) { return b.dissipated(u); }}};
 };
 
 double larger_principal(const PlaneStress<double>& s) {
@@ -109,36 +109,36 @@ template <class Law>
 struct MembraneQuantities {
   using Batch = MembraneBatch<Law>;
   static constexpr core::CellKind kind = core::CellKind::triangle;
-  static double area_in(const Batch& b, Displacement u, SheetState state) {
+  static double area_in(const Batch& b, At u, SheetState state) {
     double sum = 0;
     for (Index e = 0; e < b.size(); ++e)
       if (b.state(u, e) == state) sum += b.triangle(e).volume / b.part().thickness;
     return sum;
   }
   static constexpr CellQuantity<Batch> cells[] = {
-      {"stress_xx", "Pa", [](const Batch& b, Displacement u, Index e) { return b.stress(u, e).xx; }},
-      {"stress_yy", "Pa", [](const Batch& b, Displacement u, Index e) { return b.stress(u, e).yy; }},
-      {"stress_xy", "Pa", [](const Batch& b, Displacement u, Index e) { return b.stress(u, e).xy; }},
-      {"wrinkle_state", "1", [](const Batch& b, Displacement u, Index e) { return double(b.state(u, e)); }}};
+      {"stress_xx", "Pa", [](const Batch& b, At u, Index e) { return b.stress(u, e).xx; }},
+      {"stress_yy", "Pa", [](const Batch& b, At u, Index e) { return b.stress(u, e).yy; }},
+      {"stress_xy", "Pa", [](const Batch& b, At u, Index e) { return b.stress(u, e).xy; }},
+      {"wrinkle_state", "1", [](const Batch& b, At u, Index e) { return double(b.state(u, e)); }}};
   static constexpr PartQuantity<Batch> whole[] = {
       {"stress_max_Pa",
-       [](const Batch& b, Displacement u) {
+       [](const Batch& b, At u) {
          return largest(b, [&](Index e) { return larger_principal(b.stress(u, e)); });
        }},
       {"wrinkled_area_m2",
-       [](const Batch& b, Displacement u) { return area_in(b, u, SheetState::wrinkled); }},
-      {"slack_area_m2", [](const Batch& b, Displacement u) { return area_in(b, u, SheetState::slack); }}};
+       [](const Batch& b, At u) { return area_in(b, u, SheetState::wrinkled); }},
+      {"slack_area_m2", [](const Batch& b, At u) { return area_in(b, u, SheetState::slack); }}};
 };
 
 struct SlideQuantities {
   using Batch = PenaltySlideBatch;
   static constexpr core::CellKind kind = core::CellKind::vertex;
   static constexpr CellQuantity<Batch> cells[] = {
-      {"gap", "m", [](const Batch& b, Displacement u, Index k) { return b.gap(u, std::size_t(k)); }},
+      {"gap", "m", [](const Batch& b, At u, Index k) { return b.gap(u, std::size_t(k)); }},
       {"slide_force", "N",
-       [](const Batch& b, Displacement u, Index k) { return b.force(u, std::size_t(k)); }},
+       [](const Batch& b, At u, Index k) { return b.force(u, std::size_t(k)); }},
       {"place_on_rope", "m",
-       [](const Batch& b, Displacement u, Index k) { return b.place(u, std::size_t(k)); }}};
+       [](const Batch& b, At u, Index k) { return b.place(u, std::size_t(k)); }}};
   template <class Value>
   static double largest_of(const Batch& b, const Value& value) {
     double result = 0;
@@ -147,8 +147,8 @@ struct SlideQuantities {
   }
   static constexpr PartQuantity<Batch> whole[] = {
       {"gap_max_m", [](const Batch& b,
-                       Displacement u) { return largest_of(b, [&](std::size_t k) { return b.gap(u, k); }); }},
-      {"slide_force_max_N", [](const Batch& b, Displacement u) {
+                       At u) { return largest_of(b, [&](std::size_t k) { return b.gap(u, k); }); }},
+      {"slide_force_max_N", [](const Batch& b, At u) {
          return largest_of(b, [&](std::size_t k) { return b.force(u, k); });
        }}};
 };
@@ -190,13 +190,13 @@ std::vector<core::FieldDescription> element_fields(const ElementBatch& elements)
   return fields;
 }
 
-void fill_element_field(const ElementBatch& elements, std::size_t field, std::span<const double> displacement,
+void fill_element_field(const ElementBatch& elements, std::size_t field, const Configuration& at,
                         std::span<double> values) {
   std::visit(
       [&](const auto& batch) {
         const auto& quantity = QuantitiesOf<std::decay_t<decltype(batch)>>::cells[field];
         for (std::size_t e = 0; e < values.size(); ++e)
-          values[e] = quantity.value(batch, displacement, static_cast<Index>(e));
+          values[e] = quantity.value(batch, at, static_cast<Index>(e));
       },
       elements);
 }
@@ -213,10 +213,10 @@ std::vector<const char*> part_quantities(const ElementBatch& elements) {
 }
 
 double part_quantity(const ElementBatch& elements, std::size_t quantity,
-                     std::span<const double> displacement) {
+                     const Configuration& at) {
   return std::visit(
       [&](const auto& batch) {
-        return QuantitiesOf<std::decay_t<decltype(batch)>>::whole[quantity].value(batch, displacement);
+        return QuantitiesOf<std::decay_t<decltype(batch)>>::whole[quantity].value(batch, at);
       },
       elements);
 }

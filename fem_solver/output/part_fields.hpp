@@ -16,13 +16,13 @@ core::CellKind cell_kind(const ElementBatch& elements);
 std::vector<core::FieldDescription> element_fields(const ElementBatch& elements);
 
 /// @param field index into element_fields(). @param values one a cell
-void fill_element_field(const ElementBatch& elements, std::size_t field, std::span<const double> displacement,
+void fill_element_field(const ElementBatch& elements, std::size_t field, const Configuration& at,
                         std::span<double> values);
 
 /// What a part has as a whole, by name with unit: "axial_force_max_N".
 std::vector<const char*> part_quantities(const ElementBatch& elements);
 /// @param quantity index into part_quantities()
 double part_quantity(const ElementBatch& elements, std::size_t quantity,
-                     std::span<const double> displacement);
+                     const Configuration& at);
 
 }  // namespace talus::fem

@@ -35,7 +35,7 @@ WatchedNode node_of_probe(const Model& model, const std::string& probe, const Ve
   return watched;
 }
 
-using Values = std::span<const double> (Integrator::*)() const;
+using Values = std::vector<double> State::*;
 
 /// x, y, z and the magnitude of a vector per node.
 void add_vector(std::vector<ProbeColumn>& columns, const std::string& name, const char* unit, Values values,
@@ -43,17 +43,19 @@ void add_vector(std::vector<ProbeColumn>& columns, const std::string& name, cons
   const auto at = static_cast<std::size_t>(3 * node);
   for (std::size_t c = 0; c < 3; ++c)
     columns.push_back({fmt::format("{}_{}_{}", name, "xyz"[c], unit),
-                       [=](const Integrator& run) { return (run.*values)()[at + c]; },
+                       [=](const Integrator& run) { return (run.state().*values)[at + c]; },
                        {}});
   columns.push_back({fmt::format("{}_{}", name, unit),
-                     [=](const Integrator& run) { return Vector3::Map(&(run.*values)()[at]).norm(); }});
+                     [=](const Integrator& run) { return Vector3::Map(&(run.state().*values)[at]).norm(); }});
 }
 
-void add_part_columns(std::vector<ProbeColumn>& columns, const std::string& probe, const Part& part) {
+void add_part_columns(std::vector<ProbeColumn>& columns, const std::string& probe, const Model& model,
+                      const Part& part) {
   const std::vector<const char*> names = part_quantities(part.elements);
   for (std::size_t i = 0; i < names.size(); ++i)
-    columns.push_back({fmt::format("{}.{}", probe, names[i]), [&part, i](const Integrator& run) {
-                         return part_quantity(part.elements, i, run.displacement());
+    columns.push_back({fmt::format("{}.{}", probe, names[i]), [&model, &part, i](const Integrator& run) {
+                         return part_quantity(part.elements, i,
+                                              configuration_of(model, part, run.state().configuration()));
                        }});
 }
 
@@ -108,11 +110,11 @@ std::vector<ProbeColumn> probe_columns(const Model& model, const core::OutputSce
     const Part* part = probe.part ? &find_part(model, name, *probe.part) : nullptr;
     if (probe.at) {
       const WatchedNode watched = node_of_probe(model, name, *probe.at, part);
-      add_vector(columns, name + ".displacement", "m", &Integrator::displacement, watched.node);
-      add_vector(columns, name + ".velocity", "m_per_s", &Integrator::velocity, watched.node);
+      add_vector(columns, name + ".displacement", "m", &State::displacement, watched.node);
+      add_vector(columns, name + ".velocity", "m_per_s", &State::velocity, watched.node);
       for (ProbeColumn& column : columns) column.watches = description(model, watched);
     } else {
-      add_part_columns(columns, name, *part);
+      add_part_columns(columns, name, model, *part);
     }
     if (!probe.quantities.empty()) keep_quantities(columns, name, probe.quantities);
     all.insert(all.end(), columns.begin(), columns.end());

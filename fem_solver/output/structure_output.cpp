@@ -94,7 +94,8 @@ void StructureOutput::fill_field(std::size_t group, std::size_t field, std::span
   const Part& part = model_.parts[group];
   if (field == displacement_field) return copy_node_values(part, integrator_.displacement(), values);
   if (field == velocity_field) return copy_node_values(part, integrator_.velocity(), values);
-  fill_element_field(part.elements, field - first_element_field, integrator_.displacement(), values);
+  fill_element_field(part.elements, field - first_element_field,
+                     configuration_of(model_, part, integrator_.state().configuration()), values);
 }
 
 }  // namespace talus::fem

@@ -38,6 +38,17 @@ void describe(core::Fields& fields, CableScene& cable) {
   describe_axial(fields, cable);
 }
 
+void describe(core::Fields& fields, FrictionAtScene& friction) {
+  describe_selection(fields, friction.where);
+  fields.optional("coefficient", friction.coefficient,
+                  {.range = core::not_negative,
+                   .help = "of the capstan equation at these nodes; 0 lets the rope run freely",
+                   .plausible = core::plausible::friction});
+  fields.with_default("clamped", friction.clamped, {.help = "nothing slips through these nodes"});
+  fields.rule(friction.clamped != friction.coefficient.has_value(), "coefficient",
+              "needs one of `coefficient` and `clamped: true`");
+}
+
 void describe(core::Fields& fields, SlidingCableScene& rope) {
   describe_axial(fields, rope);
   fields.optional(
@@ -50,6 +61,8 @@ void describe(core::Fields& fields, SlidingCableScene& rope) {
                   {.range = core::positive,
                    .help = "coefficient of the capstan equation; none where absent",
                    .plausible = core::plausible::friction});
+  fields.list("friction_at", rope.friction_at,
+              "nodes with a friction of their own, such as post heads and shackles; later entries count over earlier ones");
 }
 
 void describe(core::Fields& fields, ElasticPlasticCableScene& rope) {

@@ -7,6 +7,7 @@
 
 #include "core/scene/fields.hpp"
 #include "fem_solver/materials/plane_stress.hpp"
+#include "fem_solver/scene/conditions.hpp"
 
 /// What the elements of a part are made of: the keys `bar`, `cable`, `sliding_cable`, `membrane`.
 namespace talus::fem {
@@ -23,10 +24,20 @@ struct CableScene : AxialScene {};
 void describe(core::Fields& fields, BarScene& bar);
 void describe(core::Fields& fields, CableScene& cable);
 
+/// What a rope meets at some of its nodes: its own coefficient, or a clamp.
+struct FrictionAtScene {
+  NodeSelection where;
+  std::optional<double> coefficient;  ///< mu of the capstan equation; 0: runs freely
+  bool clamped = false;
+};
+void describe(core::Fields& fields, FrictionAtScene& friction);
+
 /// One rope that runs through all its nodes.
 struct SlidingCableScene : AxialScene {
   std::optional<double> slider_size;  ///< m
-  std::optional<double> friction;     ///< mu of the capstan equation
+  std::optional<double> friction;     ///< mu of the capstan equation, at nodes that `friction_at` does not name
+  std::vector<FrictionAtScene> friction_at;
+  bool has_friction() const { return friction || !friction_at.empty(); }
 };
 void describe(core::Fields& fields, SlidingCableScene& rope);
 

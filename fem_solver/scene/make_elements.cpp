@@ -2,7 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <limits>
+
 #include "core/errors.hpp"
+#include "fem_solver/scene/node_sets.hpp"
 
 namespace talus::fem {
 namespace {
@@ -43,8 +47,8 @@ struct Maker {
   }
   ElementBatch operator()(const SlidingCableScene& rope) const {
     need_segments("sliding cable");
-    if (rope.friction)
-      return FrictionalCableBatch({axial_part(rope), *rope.friction, rope.slider_size.value_or(0)},
+    if (rope.has_friction())
+      return FrictionalCableBatch({axial_part(rope), friction_of(rope), rope.slider_size.value_or(0)},
                                   elements.segments, model.reference);
     return SlidingCableBatch(axial_part(rope), rope.slider_size.value_or(0), elements.segments,
                              model.reference);
@@ -69,6 +73,19 @@ struct Maker {
   }
 
  private:
+  /// At each inner node of the rope.
+  std::vector<double> friction_of(const SlidingCableScene& rope) const {
+    std::vector<double> friction(elements.segments.size() - 1, rope.friction.value_or(0));
+    for (const auto& at : rope.friction_at)
+      for (const Index node : select_nodes(model, at.where)) {
+        const auto inner = std::ranges::find(elements.segments, node, [](const auto& s) { return s[1]; });
+        if (inner == elements.segments.end() || inner + 1 == elements.segments.end())
+          throw core::ConfigError(fmt::format("friction_at: the rope does not run through {}", node_name(model, node)));
+        friction[static_cast<std::size_t>(inner - elements.segments.begin())] =
+            at.clamped ? std::numeric_limits<double>::infinity() : *at.coefficient;
+      }
+    return friction;
+  }
   void need_segments(const char* element) const {
     if (elements.segments.empty())
       throw core::ConfigError(fmt::format("a {} needs a shape made of lines, not of triangles", element));

@@ -1,0 +1,20 @@
+#include "fem_solver/model/state.hpp"
+
+namespace talus::fem {
+
+State initial_state(const Model& model) {
+  State state{.displacement = std::vector<double>(model.reference.size(), 0.0),
+              .velocity = std::vector<double>(model.reference.size(), 0.0),
+              .memory = initial_memory(model)};
+  for (const auto& initial : model.initial_velocities)
+    for (const Index node : initial.nodes) Vector3::Map(&state.velocity[3 * node]) = initial.velocity;
+  return state;
+}
+
+void archive(core::StateArchive& archive, State& state) {
+  archive.values("displacement", state.displacement);
+  archive.values("velocity", state.velocity);
+  archive.values("element_memory", state.memory);
+}
+
+}  // namespace talus::fem
