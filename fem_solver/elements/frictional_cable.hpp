@@ -46,6 +46,7 @@ class FrictionalCable {
       sum += material[i] * properties_.law.energy_per_length(length(chords(i)) / material[i]);
     return sum;
   }
+  double stretch(const Vector3& chord, double material) const noexcept { return length(chord) / material; }
   double tension(const Vector3& chord, double material) const noexcept {
     return properties_.law.tension(length(chord) / material);
   }

@@ -6,14 +6,6 @@
 namespace talus::fem {
 namespace {
 
-/// Of Newton's method: from one step of a run to the next it arrives in two or three.
-constexpr int most_steps = 6;
-/// Of the tensions, relative to M dN/dM, which is of the order of E A: what round-off of the stretch makes of
-/// them.
-constexpr double settled_share = 1e-14;
-/// A segment gives away at most this share of its material in one Newton step.
-constexpr double largest_share = 0.9;
-
 /// N(l/M), continued below slackness along its tangent: Newton's method then knows how far from tension a
 /// segment is.
 struct Continued {
@@ -41,33 +33,11 @@ bool RopeFriction::settle(const RopeLaw& law, const RopeState& state, std::span<
   std::ranges::fill(motion_, Motion::stuck);
   evaluate(law, state, material);
   if (within_limits(state)) return true;
-  start_.assign(material.begin(), material.end());
-  if (iterate(law, state, material)) return true;
-  if (!chain_.solve(law, state, start_, material, slip_)) return false;
+  if (!chain_.solve(law, state, old_material, material, slip_)) return false;
   evaluate(law, state, material);
   for (std::size_t k = 0; k < slip_.size(); ++k)
     motion_[k] = slip_[k] > 0 ? Motion::forward : slip_[k] < 0 ? Motion::backward : Motion::stuck;
   return true;
-}
-
-/// Newton's method; may go round in circles where many nodes are far from their answer.
-bool RopeFriction::iterate(const RopeLaw& law, const RopeState& state, std::span<double> material) noexcept {
-  for (int step = 0; step < most_steps; ++step) {
-    predict_motion(state);
-    assemble(state);
-    solve_tridiagonal();
-    const double share = longest_step(material);
-    for (std::size_t k = 0; k < slip_.size(); ++k) pass(k, share * right_[k], material);
-    evaluate(law, state, material);
-    if (settled(state, settled_share * stiffest(material))) return true;
-  }
-  return false;
-}
-
-void RopeFriction::pass(std::size_t node, double slip, std::span<double> material) noexcept {
-  slip_[node] += slip;
-  material[node] -= slip;
-  material[node + 1] += slip;
 }
 
 void RopeFriction::evaluate(const RopeLaw& law, const RopeState& state,
@@ -85,28 +55,6 @@ bool RopeFriction::within_limits(const RopeState& state) const noexcept {
     if (far > a * near || near > a * far) return false;
   }
   return true;
-}
-
-/// Every node obeys the limit, and those that have slipped stand at it, within `tolerance` (N).
-bool RopeFriction::settled(const RopeState& state, double tolerance) const noexcept {
-  for (std::size_t k = 0; k < slip_.size(); ++k) {
-    const double near = tension_[k], far = tension_[k + 1], a = state.grips[k];
-    const double ahead = far - a * near, back = near - a * far;
-    if (ahead > tolerance || back > tolerance) return false;
-    if ((slip_[k] > 0 && ahead < -tolerance) || (slip_[k] < 0 && back < -tolerance)) return false;
-  }
-  return true;
-}
-
-/// A node moves the way a Newton step of this node alone would leave it moved.
-void RopeFriction::predict_motion(const RopeState& state) noexcept {
-  for (std::size_t k = 0; k < slip_.size(); ++k) {
-    const double near = tension_[k], far = tension_[k + 1], a = state.grips[k];
-    const double ahead = (far - a * near) / -(slope_[k + 1] + a * slope_[k]) + slip_[k];
-    const double back = (near - a * far) / -(slope_[k] + a * slope_[k + 1]) - slip_[k];
-    motion_[k] = Motion::stuck;
-    if (std::max(ahead, back) > 0) motion_[k] = ahead > back ? Motion::forward : Motion::backward;
-  }
 }
 
 /// The system for the changes of the slips: a stuck node's slip goes back to zero, the others reach the
@@ -139,22 +87,6 @@ void RopeFriction::solve_tridiagonal() noexcept {
   }
   for (std::size_t k = n; k-- > 0;)
     right_[k] = (right_[k] - (k + 1 < n ? upper_[k] * right_[k + 1] : 0)) / diagonal_[k];
-}
-
-/// The largest M |dN/dM| (N).
-double RopeFriction::stiffest(std::span<const double> material) const noexcept {
-  double largest = 0;
-  for (std::size_t i = 0; i < material.size(); ++i) largest = std::max(largest, -slope_[i] * material[i]);
-  return largest;
-}
-
-double RopeFriction::longest_step(std::span<const double> material) const noexcept {
-  double share = 1;
-  for (std::size_t i = 0; i < material.size(); ++i) {
-    const double gain = (i > 0 ? right_[i - 1] : 0) - (i < right_.size() ? right_[i] : 0);
-    if (-gain > largest_share * material[i]) share = std::min(share, largest_share * material[i] / -gain);
-  }
-  return share;
 }
 
 void RopeFriction::tension_changes(const RopeLaw& law, const RopeState& state,

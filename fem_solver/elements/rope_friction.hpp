@@ -23,9 +23,8 @@ namespace talus::fem {
 /// With -ln N as the slope of a convex potential of M_i these are the conditions of the least of
 /// sum_i P_i(M_i) + sum_k mu theta_k |s_k|, strictly convex: the solution is unique, so it depends on no
 /// order of the nodes. Material moves towards the larger tension only, so the elastic energy falls: what it
-/// loses is the friction's dissipation, never negative. Solved by a few steps of Newton's method on the nodes that
-/// slip (tridiagonal), the set of which follows from each step; where that does not arrive at once (nodes far
-/// from their answer, slack segments) by RopeChain, which always does. Proven by: elements_friction.cpp.
+/// loses is the friction's dissipation, never negative. Solved by RopeChain; here
+/// are what is quick (nothing slips) and the derivative. Proven by: elements_friction.cpp.
 class RopeFriction {
  public:
   /// Room for ropes of so many segments; kept for the next.
@@ -52,23 +51,16 @@ class RopeFriction {
  private:
   enum class Motion : signed char { backward = -1, stuck = 0, forward = 1 };
 
-  bool iterate(const RopeLaw& law, const RopeState& state, std::span<double> material) noexcept;
-  void pass(std::size_t node, double slip, std::span<double> material) noexcept;
   void evaluate(const RopeLaw& law, const RopeState& state, std::span<const double> material) noexcept;
   bool within_limits(const RopeState& state) const noexcept;
-  bool settled(const RopeState& state, double tolerance) const noexcept;
-  void predict_motion(const RopeState& state) noexcept;
   void assemble(const RopeState& state) noexcept;
   void solve_tridiagonal() noexcept;
-  double stiffest(std::span<const double> material) const noexcept;
-  double longest_step(std::span<const double> material) const noexcept;
 
   std::vector<double> tension_, slope_;  ///< N and dN/dM of each segment
   std::vector<double> slip_;             ///< s_k
   std::vector<Motion> motion_;           ///< of each inner node
   std::vector<double> lower_, diagonal_, upper_,
       right_;  ///< tridiagonal system of the slips; right_ holds its solution
-  std::vector<double> start_;  ///< m; material before the step
   RopeChain chain_;
 };
 

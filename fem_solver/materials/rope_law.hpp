@@ -45,22 +45,33 @@ class RopeLaw {
                  e = strain(std::max(stretch, slack_stretch_));
     return section_.area * (0.5 * E * e * e + S_pre * e);
   }
+  /// q N - u, the force with which a stretched segment takes in more material: what its energy falls by for each
+  /// metre (N).
+  double pull_of_material(double stretch) const noexcept {
+    return stretch * tension(stretch) - energy_per_length(stretch);
+  }
   double slack_stretch() const noexcept { return slack_stretch_; }
-  /// The stretch q at a tension (N) above 0, by Newton's method from above: N(q) = (A E/2) q (q^2 - q_0^2) is
-  /// convex, so no step passes the root.
-  double stretch_at(double tension) const noexcept {
+  /// The stretch q at a tension (N) above 0, by Newton's method on N(q) = (A E/2) q (q^2 - q_0^2), which is convex:
+  /// no step but the first passes the root. @param guess any stretch above 0; near the answer two steps do
+  double stretch_at(double tension, double guess) const noexcept {
     const double half = 0.5 * section_.area * section_.youngs_modulus,
                  offset = 2 * section_.prestress / section_.youngs_modulus - 1;  // -q_0^2 where q_0 > 0
-    const double above = std::cbrt(tension / half), q0 = slack_stretch_;
-    const double linear = offset < 0 ? tension / (-2 * half * offset) : tension / (half * offset);
-    double x = std::min(above, linear);  // q - q_0
-    for (int step = 0; step < 60; ++step) {
+    const double q0 = slack_stretch_;
+    double x = std::max(0.0, guess - q0);  // q - q_0
+    for (int step = 0; step < 100; ++step) {
       const double q = q0 + x, square = offset < 0 ? x * (2 * q0 + x) : x * x + offset;  // q^2 - q_0^2
       const double change = (half * q * square - tension) / (half * (square + 2 * q * q));
       x -= change;
-      if (!(change > 1e-16 * q)) break;
+      if (std::abs(change) <= 1e-9 * x) break;  // what is left is the square of that
     }
     return q0 + x;
+  }
+  /// The same from a guess that is right for small strains and for large ones.
+  double stretch_at(double tension) const noexcept {
+    const double modulus = section_.area * section_.youngs_modulus;
+    return stretch_at(tension, slack_stretch_ > 0
+                                   ? slack_stretch_ + tension / (modulus * slack_stretch_ * slack_stretch_)
+                                   : std::cbrt(2 * tension / modulus));
   }
   const AxialSection& section() const noexcept { return section_; }
 

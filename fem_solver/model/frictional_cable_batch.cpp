@@ -35,7 +35,8 @@ FrictionalCableBatch::FrictionalCableBatch(const Description& description,
 
 void FrictionalCableBatch::fill_initial_memory(std::span<double> memory) const {
   std::ranges::copy(initial_, memory.begin());
-  memory[segments()] = 0;
+  std::ranges::fill(memory.subspan(segments(), segments()), law_.pull_of_material(1));
+  memory.back() = 0;
 }
 
 void FrictionalCableBatch::internal_force(const Configuration& at, std::span<double> next,
@@ -44,13 +45,29 @@ void FrictionalCableBatch::internal_force(const Configuration& at, std::span<dou
   const auto held = next.first(segments());
   if (!cable_.settle(chords, material(at), held)) {
     std::ranges::fill(slots.first(3 * segments()), std::numeric_limits<double>::quiet_NaN());
-    std::ranges::copy(material(at), next.begin());
-    next[segments()] = dissipated(at);
+    if (!at.memory.empty()) std::ranges::copy(at.memory, next.begin());
     return;
   }
-  next[segments()] = dissipated(at) + cable_.energy(chords, material(at)) - cable_.energy(chords, held);
+  for (std::size_t i = 0; i < segments(); ++i)
+    next[segments() + i] = law_.pull_of_material(cable_.stretch(chords(i), held[i]));
+  next.back() = dissipated(at) + newly_dissipated(at, next);
   cable_.segment_forces(chords, held,
                         [&](std::size_t i, const Vector3& force) { Vector3::Map(&slots[3 * i]) = force; });
+}
+
+double FrictionalCableBatch::newly_dissipated(const Configuration& at,
+                                              std::span<const double> next) const noexcept {
+  const std::size_t m = segments();
+  const auto old = material(at);
+  const auto pull = [&](std::size_t i) {
+    return 0.5 * (next[m + i] + (at.memory.empty() ? law_.pull_of_material(1) : at.memory[m + i]));
+  };
+  double joules = 0, passed = 0;
+  for (std::size_t k = 0; k + 1 < m; ++k) {
+    passed += old[k] - next[k];
+    joules += passed * (pull(k + 1) - pull(k));
+  }
+  return joules;
 }
 
 void FrictionalCableBatch::stiffness_product(const Configuration& at, std::span<const double> direction,
@@ -65,7 +82,7 @@ double FrictionalCableBatch::energy(const Configuration& at) const noexcept {
 }
 
 double FrictionalCableBatch::dissipated(const Configuration& at) const noexcept {
-  return at.memory.empty() ? 0 : at.memory[segments()];
+  return at.memory.empty() ? 0 : at.memory.back();
 }
 
 double FrictionalCableBatch::tension(const Configuration& at, Index segment) const noexcept {

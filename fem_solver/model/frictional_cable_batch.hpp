@@ -11,8 +11,14 @@ namespace talus::fem {
 
 /// A part that is one rope running over its inner nodes with friction. One force slot a segment.
 ///
-/// It remembers how much unstretched rope each segment holds, and what friction has dissipated: a force is a
-/// function of the positions and of the lengths held when the last step was accepted.
+/// It remembers how much unstretched rope M each segment holds, what that pulls with, and what friction has
+/// dissipated: a force is a function of the positions and of the lengths held when the last step was accepted.
+/// Slip s_k at node k takes the work of the pull P = q N - u = -dU/dM that differs across it,
+///
+///     dD = sum_k s_k (P_(k+1) - P_k)
+///
+/// with P as the mean of both ends of a step, as the forces' work in the balance of a leapfrog and of the
+/// trapezoidal rule is. So a rope whose friction fades dissipates nothing.
 /// @see ElementBatch for the meaning of the members.
 class FrictionalCableBatch {
  public:
@@ -33,7 +39,7 @@ class FrictionalCableBatch {
     line_.for_each_incidence(visit);
   }
 
-  std::size_t memory_size() const { return segments() + 1; }
+  std::size_t memory_size() const { return 2 * segments() + 1; }
   void fill_initial_memory(std::span<double> memory) const;
 
   /// NaN where the positions are, so that the run ends with an error.
@@ -72,6 +78,8 @@ class FrictionalCableBatch {
   std::span<const double> material(const Configuration& at) const noexcept {
     return (at.memory.empty() ? std::span<const double>(initial_) : at.memory).first(segments());
   }
+
+  double newly_dissipated(const Configuration& at, std::span<const double> next) const noexcept;
 
   AxialPart part_;
   RopeLine line_;
