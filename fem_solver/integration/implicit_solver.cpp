@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "core/errors.hpp"
@@ -9,6 +10,16 @@
 #include "fem_solver/integration/external_force.hpp"
 
 namespace talus::fem {
+namespace {
+
+/// Of the largest energy so far: from where on a step is not allowed to create more than round-off and the error of
+/// works by the trapezoidal rule.
+constexpr double largest_created = 0.01, largest_created_by_a_step = 1e-4;
+/// After a start the method overshoots where a step cannot resolve a motion, and then forgets it (Chung and Hulbert,
+/// section 5).
+constexpr std::int64_t steps_of_overshoot = 3;
+
+}  // namespace
 
 ImplicitSolver::ImplicitSolver(const Model& model, Assembly& assembly, const ImplicitOptions& options)
     : model_(model), assembly_(assembly), options_(options), newton_(model) {
@@ -51,14 +62,17 @@ void ImplicitSolver::archive(core::StateArchive& archive) {
   archive.values("interface_force", state_.interface_force);
   archive.values("reactions", state_.reactions);
   archive.count("steps", state_.steps);
-  std::vector<double> damped{state_.damped};
-  archive.values("damped", damped);
-  state_.damped = damped.front();
+  std::vector<double> energies{state_.damped, state_.created, state_.largest_energy};
+  archive.values("damped_and_created", energies);
+  state_.damped = energies[0];
+  state_.created = energies[1];
+  state_.largest_energy = energies[2];
   fem::archive(archive, state_.works);
 }
 
 /// The acceleration the first step starts from, before the interface's forces.
 void ImplicitSolver::start(double time) {
+  lead_supports_off(time);
   before_ = state_;
   assembly_.internal_force(state_.configuration(), state_.force);
   add_external_force(model_, {}, {.time = time}, state_.force);
@@ -73,6 +87,22 @@ void ImplicitSolver::start(double time) {
   for_each_support(model_, [&](const Support& support, std::size_t dof, std::size_t offset) {
     for (std::size_t c = 0; c < 3; ++c)
       if (support.fixed[c]) state_.reactions[offset + c] = std::exchange(needed[dof + c], 0.0);
+  });
+}
+
+/// Supports that a table leads have its rate from the start on: from rest they would ring about it. What that gives
+/// their nodes is the supports' work.
+void ImplicitSolver::lead_supports_off(double time) {
+  for_each_support(model_, [&](const Support& support, std::size_t dof, std::size_t) {
+    if (!support.moves()) return;
+    const double rate = support.history.rate_after(time), mass = model_.node_masses[dof / 3];
+    for (std::size_t c = 0; c < 3; ++c) {
+      if (!support.fixed[c]) continue;
+      double& velocity = state_.velocity[dof + c];
+      const double led = rate * support.displacement[static_cast<int>(c)];
+      state_.works.supports += 0.5 * mass * (led * led - velocity * velocity);
+      velocity = led;
+    }
   });
 }
 
@@ -100,6 +130,7 @@ std::vector<double> ImplicitSolver::masses_of_directions() const {
 
 bool ImplicitSolver::take(const Step& step) {
   before_ = state_;
+  energy_before_ = energy();
   predict(step);
   reports_.push_back(newton_.solve(system(step), options_.newton, state_.displacement));
   if (!reports_.back().converged) {
@@ -110,8 +141,40 @@ bool ImplicitSolver::take(const Step& step) {
   total_force(step.time + step.length, state_.displacement, state_.force);
   std::ranges::copy(assembly_.next_memory(), state_.memory.begin());
   account(step);
+  created_energy_ = !keeps_energy();
+  if (created_energy_) {
+    state_ = before_;
+    return false;
+  }
   ++state_.steps;
   return true;
+}
+
+/// What is on the move, stored and dissipated, less what came from outside.
+double ImplicitSolver::energy() const {
+  const auto sum = [](const std::vector<double>& joules) { return std::accumulate(joules.begin(), joules.end(), 0.0); };
+  const ExternalWorks& works = state_.works;
+  return kinetic() + sum(elastic_by_parts(model_, state_.configuration())) +
+         sum(dissipated_by_parts(model_, state_.configuration())) + state_.damped -
+         (works.gravity + works.loads + works.interface + works.supports);
+}
+
+double ImplicitSolver::kinetic() const {
+  double twice = 0;
+  for (std::size_t i = 0; i < state_.velocity.size(); ++i)
+    twice += model_.node_masses[i / 3] * state_.velocity[i] * state_.velocity[i];
+  return 0.5 * twice;
+}
+
+bool ImplicitSolver::keeps_energy() {
+  const ExternalWorks& works = state_.works;
+  state_.largest_energy = std::max({state_.largest_energy, kinetic(),
+                                    std::abs(works.gravity + works.loads + works.interface + works.supports)});
+  if (state_.steps < steps_of_overshoot) return true;
+  const double change = energy() - energy_before_;
+  state_.created += change;
+  return change <= largest_created_by_a_step * state_.largest_energy ||
+         state_.created <= largest_created * state_.largest_energy;
 }
 
 /// Free directions go on with constant acceleration, supported ones to where they are led.
@@ -207,8 +270,7 @@ void ImplicitSolver::account(const Step& step) {
 
 EnergyBalance ImplicitSolver::balance() {
   EnergyBalance balance;
-  for (std::size_t i = 0; i < state_.velocity.size(); ++i)
-    balance.kinetic += 0.5 * model_.node_masses[i / 3] * state_.velocity[i] * state_.velocity[i];
+  balance.kinetic = kinetic();
   balance.elastic = elastic_by_parts(model_, state_.configuration());
   balance.dissipated = dissipated_by_parts(model_, state_.configuration());
   balance.gravity = -state_.works.gravity;
@@ -220,6 +282,15 @@ EnergyBalance ImplicitSolver::balance() {
 }
 
 void ImplicitSolver::report_failure(const Step& step) const {
+  if (created_energy_)
+    throw core::NumericalError(
+        {.what = "the step creates energy from nothing, even 1/1024 of it; write `implicit: {spectral_radius: 0.5}`, "
+                 "which takes what a step cannot follow, or a shorter step",
+         .entity = "energy created so far (J)",
+         .step = state_.steps,
+         .time = step.time,
+         .value = state_.created,
+         .last_output_time = last_output_time});
   throw core::NumericalError(
       {.what = "Newton's iteration does not converge, even for 1/1024 of the step",
        .entity = "relative residual of " + node_name(model_, reports_.back().worst_direction / 3),

@@ -17,6 +17,13 @@ double TimeTable::at(double time) const {
   return f0 + (f1 - f0) * (time - t0) / (t1 - t0);
 }
 
+double TimeTable::rate_after(double time) const {
+  const auto next = std::upper_bound(points.begin(), points.end(), time,
+                                     [](double t, const auto& point) { return t < point.first; });
+  if (next == points.begin() || next == points.end()) return 0;
+  return (next->second - (next - 1)->second) / (next->first - (next - 1)->first);
+}
+
 std::vector<double> initial_memory(const Model& model) {
   std::vector<double> memory;
   for (const auto& part : model.parts)

@@ -43,6 +43,8 @@ struct Part {
 struct TimeTable {
   std::vector<std::pair<double, double>> points;  ///< s, factor; ascending
   double at(double time) const;
+  /// Its derivative just after a time (1/s).
+  double rate_after(double time) const;
 };
 
 /// Nodes whose motion is given in some directions.
