@@ -10,6 +10,7 @@
 
 #include "core/steps.hpp"
 #include "coupler/scene/interface_scene.hpp"
+#include "fem_solver/constraints/held_directions.hpp"
 #include "fem_solver/app/structure.hpp"
 
 namespace talus::fem {
@@ -66,13 +67,10 @@ void add_cells(const Part& part, const std::vector<Index>& number, mesh::Surface
 /// Nodes whose motion is prescribed in every direction, by one support or by several together: no force moves
 /// them.
 std::vector<bool> held_nodes(const Model& model) {
-  std::vector<std::array<bool, 3>> fixed(static_cast<std::size_t>(model.nodes()), {false, false, false});
-  for (const auto& support : model.supports)
-    for (const Index node : support.nodes)
-      for (std::size_t c = 0; c < 3; ++c)
-        if (support.fixed[c]) fixed[static_cast<std::size_t>(node)][c] = true;
+  std::vector<int> directions(static_cast<std::size_t>(model.nodes()), 0);
+  for (const HeldDirection& h : held_directions(model)) ++directions[h.direction / 3];
   std::vector<bool> held;
-  for (const auto& directions : fixed) held.push_back(std::ranges::all_of(directions, std::identity{}));
+  for (const int count : directions) held.push_back(count == 3);
   return held;
 }
 

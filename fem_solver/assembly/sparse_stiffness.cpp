@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "fem_solver/constraints/held_directions.hpp"
+
 namespace talus::fem {
 namespace {
 
@@ -24,10 +26,7 @@ void for_each_number(Index row, Index column, const Matrix3& block, const Visit&
 }  // namespace
 
 Equations::Equations(const Model& model) : number_(model.reference.size(), 0) {
-  for (const auto& support : model.supports)
-    for (const Index node : support.nodes)
-      for (std::size_t c = 0; c < 3; ++c)
-        if (support.fixed[c]) number_[3 * static_cast<std::size_t>(node) + c] = -1;
+  for (const HeldDirection& h : held_directions(model)) number_[h.direction] = -1;
   for (std::size_t direction = 0; direction < number_.size(); ++direction) {
     if (number_[direction] < 0) continue;
     number_[direction] = count();

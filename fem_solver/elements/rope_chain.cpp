@@ -86,11 +86,7 @@ bool RopeChain::sweep_tangents(const Problem& problem) noexcept {
     tensions_from_roots(problem.state);
     double change = 0;
     for (std::size_t i = 0; i < m; ++i) change = std::max(change, std::abs(tension_[i] - before_[i]));
-    if (change <= close) {
-      for (std::size_t i = 0; i < m; ++i)
-        material_[i] = problem.old_material[i] - constant_[i] - slope_[i] * tension_[i];
-      return true;
-    }
+    if (change <= close) return true;
     for (std::size_t i = 0; i < m; ++i) {
       const Excess here = held(problem, i, tension_[i]);
       slope_[i] = here.slope;
@@ -148,7 +144,6 @@ bool RopeChain::roots_of_tangents(const Problem& problem) noexcept {
 void RopeChain::roots_of_excess(const Problem& problem) noexcept {
   for (std::size_t i = 0; i < root_.size(); ++i) root_[i] = root(problem, i);
   tensions_from_roots(problem.state);
-  for (std::size_t i = 0; i < root_.size(); ++i) material_[i] = held(problem, i, tension_[i]).metres;
 }
 
 void RopeChain::tensions_from_roots(const RopeState& state) noexcept {
@@ -211,33 +206,47 @@ double RopeChain::root(const Problem& problem, std::size_t last) const noexcept 
   return N;
 }
 
-/// Material by the tensions. What round-off leaves of the sum over nodes that slip together goes to the segment with
-/// most of it, which feels it least. Old material is read before the new, which may be the same memory, is written.
-void RopeChain::share_out(const Problem& problem, std::span<double> material,
-                          std::span<double> slips) const noexcept {
+/// Material of nodes that slip together: one step of Newton's method on their common tension, which sees nothing of
+/// the round-off of larger segments elsewhere. What is left goes to the segment with most material, which feels it
+/// least.
+void RopeChain::settle_run(const Problem& problem, std::size_t first, std::size_t end) noexcept {
+  Excess sum{0, 0};
+  for (std::size_t i = first; i < end; ++i) {
+    const Excess here = held(problem, i, tension_[i]);
+    material_[i] = here.metres;
+    slope_[i] = here.slope * tension_[i];  // by the logarithm of the common tension
+    sum.metres += problem.old_material[i] - here.metres;
+    sum.slope += slope_[i];
+  }
+  const double change = sum.metres / sum.slope;
+  double left = 0;
+  std::size_t keeper = first;
+  for (std::size_t i = first; i < end; ++i) {
+    material_[i] += slope_[i] * change;
+    left += problem.old_material[i] - material_[i];
+    if (material_[i] > material_[keeper]) keeper = i;
+  }
+  material_[keeper] += left;
+}
+
+/// Old material is read before the new, which may be the same memory, is written.
+void RopeChain::share_out(const Problem& problem, std::span<double> material, std::span<double> slips) noexcept {
   const std::size_t m = material.size();
   for (std::size_t first = 0; first < m;) {
     std::size_t end = first + 1;
     while (end < m && slips_[end - 1]) ++end;
-    double left = 0;
-    std::size_t keeper = first;
-    for (std::size_t i = first; i < end; ++i) {
-      const double old = problem.old_material[i];
-      left += old;
-      if (i < slips.size()) slips[i] = old;
-      material[i] = end == first + 1 ? old : material_[i];
-      if (material[i] > material[keeper]) keeper = i;
-    }
-    for (std::size_t i = first; i < end; ++i) left -= material[i];
-    material[keeper] += left;
+    if (end == first + 1)
+      material_[first] = problem.old_material[first];
+    else
+      settle_run(problem, first, end);
     double passed = 0;
-    for (std::size_t i = first; i + 1 < end; ++i) {
-      passed += slips[i] - material[i];
-      slips[i] = passed;
+    for (std::size_t i = first; i < end; ++i) {
+      passed += problem.old_material[i] - material_[i];
+      if (i < slips.size()) slips[i] = i + 1 < end ? passed : 0;
     }
-    if (end - 1 < slips.size()) slips[end - 1] = 0;
     first = end;
   }
+  std::ranges::copy(material_, material.begin());
 }
 
 }  // namespace talus::fem

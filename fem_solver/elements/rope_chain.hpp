@@ -75,7 +75,8 @@ class RopeChain {
   static Excess held(const Problem& problem, std::size_t segment, double tension) noexcept;
   Excess excess(const Problem& problem, std::size_t last, double tension) const noexcept;
   double root(const Problem& problem, std::size_t last) const noexcept;
-  void share_out(const Problem& problem, std::span<double> material, std::span<double> slips) const noexcept;
+  void share_out(const Problem& problem, std::span<double> material, std::span<double> slips) noexcept;
+  void settle_run(const Problem& problem, std::size_t first, std::size_t end) noexcept;
 
   std::vector<double> root_, tension_, before_;  ///< N
   std::vector<double> material_;            ///< m; by the tensions

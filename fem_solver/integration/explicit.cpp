@@ -10,13 +10,6 @@
 #include "fem_solver/integration/external_force.hpp"
 
 namespace talus::fem {
-namespace {
-
-struct NoTerm {};
-struct MassDampingTerm {};
-
-}  // namespace
-
 ExplicitSolver::ExplicitSolver(const Model& model, Assembly& assembly, double step)
     : model_(model), assembly_(assembly), longest_step_(step) {
   const std::size_t values = model.reference.size();
@@ -28,6 +21,12 @@ ExplicitSolver::ExplicitSolver(const Model& model, Assembly& assembly, double st
     for (const double m : model.node_masses) mass_.insert(mass_.end(), 3, m);
   if (model.damping.stiffness > 0) damping_force_.resize(values);
   sum_.reserve(static_cast<std::int64_t>(values));
+  for (const HeldDirection& h : held_directions(model))
+    if (h.displacement != 0)
+      led_.push_back(h);
+    else
+      fixed_.push_back({static_cast<std::uint32_t>(h.direction), static_cast<std::uint32_t>(h.reaction)});
+  fixed_.shrink_to_fit();
   for (const auto& slide : model.constrained_slides) slides_.emplace_back(model, slide.line);
 }
 
@@ -96,7 +95,10 @@ void ExplicitSolver::step(double time, double step) {
   const double activity =
       model_.damping.mass > 0 ? advance_nodes<MassDampingTerm>(step) : advance_nodes<NoTerm>(step);
   assembly_.lap(StepStage::motion);
-  if (!slides_.empty()) hold_slides(time, step);
+  if (!slides_.empty()) {
+    hold_slides(time, step);
+    damp_sliding_nodes(step);
+  }
   assembly_.lap(StepStage::slides);
   leave(time, step);
   assembly_.lap(StepStage::energy);
@@ -142,12 +144,10 @@ std::span<const double> ExplicitSolver::free_velocity(double time, double step) 
     free_velocity_[i] =
         ((1 - half_damping) * state_.velocity[i] + kick * inverse_mass_[i] * free_velocity_[i]) /
         (1 + half_damping);
-  for_each_support(model_, [&](const Support& support, std::size_t dof, std::size_t) {
-    const Vector3 target = support.history.at(time + step) * support.displacement;
-    for (std::size_t c = 0; c < 3; ++c)
-      if (support.fixed[c])
-        free_velocity_[dof + c] = (target[static_cast<int>(c)] - state_.displacement[dof + c]) / step;
-  });
+  for (const Fixed& fixed : fixed_) free_velocity_[fixed.direction] = 0;
+  for (const HeldDirection& h : led_)
+    free_velocity_[h.direction] =
+        (h.support->history.at(time + step) * h.displacement - state_.displacement[h.direction]) / step;
   assembly_.lap(StepStage::other_forces);
   return free_velocity_;
 }
@@ -162,32 +162,16 @@ void ExplicitSolver::subtract_stiffness_damping(std::span<double> force) noexcep
 
 void ExplicitSolver::impose_supports(double time, double step) noexcept {
   const double half_damping = 0.5 * model_.damping.mass * state_.kick;
-  std::size_t offset = 0;
-  const auto impose = [&](const Support& support, const auto& velocity_after) {
-    for (const Index node : support.nodes) {
-      const auto dof = 3 * static_cast<std::size_t>(node);
-      const double mass = model_.node_masses[static_cast<std::size_t>(node)];
-      for (std::size_t c = 0; c < 3; ++c) {
-        if (!support.fixed[c]) continue;
-        const double momentum_change =
-            (1 + half_damping) * velocity_after(dof, c) - (1 - half_damping) * state_.velocity[dof + c];
-        const double needed = mass * momentum_change / state_.kick;
-        state_.reactions[offset + c] = needed - state_.force[dof + c];
-        state_.force[dof + c] = needed;
-      }
-      offset += 3;
-    }
+  const auto hold = [&](std::size_t i, std::size_t reaction, double mass, double velocity_after) {
+    const double momentum_change = (1 + half_damping) * velocity_after - (1 - half_damping) * state_.velocity[i];
+    const double needed = mass * momentum_change / state_.kick;
+    state_.reactions[reaction] = needed - state_.force[i];
+    state_.force[i] = needed;
   };
-  for (const Support& support : model_.supports) {
-    if (!support.moves()) {
-      impose(support, [](std::size_t, std::size_t) { return 0.0; });  // its nodes are where they are to be
-      continue;
-    }
-    const Vector3 target = support.history.at(time + step) * support.displacement;
-    impose(support, [&](std::size_t dof, std::size_t c) {
-      return (target[static_cast<int>(c)] - state_.displacement[dof + c]) / step;
-    });
-  }
+  for (const auto& [direction, reaction] : fixed_) hold(direction, reaction, model_.node_masses[direction / 3], 0.0);
+  for (const HeldDirection& h : led_)
+    hold(h.direction, h.reaction, h.mass(model_),
+         (h.support->history.at(time + step) * h.displacement - state_.displacement[h.direction]) / step);
 }
 
 /// Eight directions at a time, their sums apart: a fixed order that fits vector registers.
@@ -228,8 +212,25 @@ double ExplicitSolver::advance_nodes(double step) noexcept {
                   .step = step};
   const double sum = sum_.of_blocks(static_cast<std::int64_t>(state_.velocity.size()), 0.0,
                                     [&](core::Block values) { return advance_values<damped>(leap, values); });
-  if constexpr (damped) state_.damped += 0.5 * model_.damping.mass * sum;
+  if constexpr (damped)
+    if (slides_.empty()) state_.damped += 0.5 * model_.damping.mass * sum;
   return sum;
+}
+
+template double ExplicitSolver::advance_nodes<NoTerm>(double step) noexcept;
+
+void ExplicitSolver::damp_sliding_nodes(double step) noexcept {
+  if (mass_.empty()) return;
+  const double half_before = 0.5 * state_.previous_step, half_after = 0.5 * step;
+  const double sum = sum_.of_blocks(static_cast<std::int64_t>(mass_.size()), 0.0, [&](core::Block values) {
+    double joules = 0;
+    for (auto i = static_cast<std::size_t>(values.begin); i < static_cast<std::size_t>(values.end); ++i) {
+      const double before = velocity_before_[i], after = state_.velocity[i];
+      joules += mass_[i] * ((before + after) * (half_before * before + half_after * after));
+    }
+    return joules;
+  });
+  state_.damped += 0.5 * model_.damping.mass * sum;
 }
 
 // The energy that the constraints take is that of taking last step's offset back: they do no work on a motion

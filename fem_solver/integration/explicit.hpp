@@ -8,11 +8,16 @@
 
 #include "core/parallel.hpp"
 #include "fem_solver/assembly/assembly.hpp"
+#include "fem_solver/constraints/held_directions.hpp"
 #include "fem_solver/integration/integrator.hpp"
 #include "fem_solver/integration/slide_run.hpp"
 #include "fem_solver/integration/step_watch.hpp"
 
 namespace talus::fem {
+
+/// Whether a term is in the loop over nodes at all.
+struct NoTerm {};
+struct MassDampingTerm {};
 
 /// Whether a structure has moved since the start: before its first step nobody knows.
 enum class Rest : std::int64_t { to_be_seen, rests, moves };
@@ -122,6 +127,8 @@ class ExplicitSolver final : public Integrator {
   /// Sum of velocities squared, or what mass damping dissipates (J): finite as long as every velocity is.
   template <class MassDamping>
   double advance_nodes(double step) noexcept;
+  /// What mass damping has taken where sliders were led: the velocities that count are those after it.
+  void damp_sliding_nodes(double step) noexcept;
   /// Takes sliders back to their ropes after a free step.
   void hold_slides(double time, double step);
   enum WorkLine : std::size_t { by_loads, by_supports, by_interface, by_stiffness_damping, by_slides };
@@ -141,6 +148,12 @@ class ExplicitSolver final : public Integrator {
   ExplicitState state_;
   ExplicitState saved_;
   std::optional<StepWatch> watch_;
+  /// Held directions that stay where they are, as the step's loop reads them.
+  struct Fixed {
+    std::uint32_t direction, reaction;
+  };
+  std::vector<Fixed> fixed_;
+  std::vector<HeldDirection> led_;  ///< the others
   std::vector<SlideRun> slides_;         ///< of the model's constrained slides
   std::vector<double> velocity_before_;  ///< m/s; of the step in progress, where there are slides
   std::vector<double> inverse_mass_;     ///< 1/kg; of each direction, 0 for a node without mass

@@ -39,10 +39,7 @@ ExplicitSolver::Powers ExplicitSolver::powers(double time) const noexcept {
 
 double ExplicitSolver::power_of_supports() const noexcept {
   double power = 0;
-  for_each_support(model_, [&](const Support& support, std::size_t dof, std::size_t offset) {
-    if (!support.moves()) return;
-    for (std::size_t c = 0; c < 3; ++c) power += state_.reactions[offset + c] * state_.velocity[dof + c];
-  });
+  for (const HeldDirection& h : led_) power += state_.reactions[h.reaction] * state_.velocity[h.direction];
   return power;
 }
 
@@ -54,6 +51,14 @@ EnergyBalance ExplicitSolver::balance() {
   state_.kick = 0.5 * longest_step_;
   evaluate_forces(0);
   impose_supports(0, longest_step_);
+  if (!slides_.empty()) {  // their constraints' forces follow from a step that is not taken
+    velocity_before_ = state_.velocity;
+    advance_nodes<NoTerm>(longest_step_);
+    hold_slides(0, longest_step_);
+    state_.displacement = start.displacement;
+    state_.velocity = start.velocity;
+    state_.works = start.works;
+  }
   const EnergyBalance balance = balance_at_evaluation();
   state_ = start;
   return balance;

@@ -35,12 +35,10 @@ void add_works(const Model& model, const InterfaceForce& interface, const LoadSp
   interface.for_each([&](Index node, const auto& on_node) { works.interface += on_node.dot(move_of(node)); });
 }
 
-void place_supports(const Model& model, const LoadTime& when, std::span<double> displacement) noexcept {
-  for_each_support(model, [&](const Support& support, std::size_t dof, std::size_t) {
-    const Vector3 target = load_factor(support.history, when) * support.displacement;
-    for (std::size_t c = 0; c < 3; ++c)
-      if (support.fixed[c]) displacement[dof + c] = target[static_cast<int>(c)];
-  });
+void place_supports(std::span<const HeldDirection> held, const LoadTime& when,
+                    std::span<double> displacement) noexcept {
+  for (const HeldDirection& h : held)
+    displacement[h.direction] = load_factor(h.support->history, when) * h.displacement;
 }
 
 void archive(core::StateArchive& archive, ExternalWorks& works) {

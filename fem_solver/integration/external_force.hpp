@@ -2,6 +2,7 @@
 
 #include <span>
 
+#include "fem_solver/constraints/held_directions.hpp"
 #include "fem_solver/integration/integrator.hpp"
 #include "fem_solver/model/model.hpp"
 
@@ -35,20 +36,8 @@ struct LoadSpan {
 void add_works(const Model& model, const InterfaceForce& interface, const LoadSpan& span,
                std::span<const double> change_of_displacement, ExternalWorks& works) noexcept;
 
-/// Puts the supported directions where they are led.
-void place_supports(const Model& model, const LoadTime& when, std::span<double> displacement) noexcept;
-
-/// visit(support, first direction of the node in arrays of 3 a node, offset into the reactions)
-template <class Visit>
-void for_each_support(const Model& model, const Visit& visit) {
-  std::size_t offset = 0;
-  for (const auto& support : model.supports) {
-    for (const Index node : support.nodes) {
-      visit(support, 3 * static_cast<std::size_t>(node), offset);
-      offset += 3;
-    }
-  }
-}
+/// Puts the held directions where they are led.
+void place_supports(std::span<const HeldDirection> held, const LoadTime& when, std::span<double> displacement) noexcept;
 
 /// 3 a node of each support.
 std::size_t reaction_count(const Model& model);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -22,7 +23,7 @@ constexpr std::int64_t steps_of_overshoot = 3;
 }  // namespace
 
 ImplicitSolver::ImplicitSolver(const Model& model, Assembly& assembly, const ImplicitOptions& options)
-    : model_(model), assembly_(assembly), options_(options), newton_(model) {
+    : model_(model), assembly_(assembly), options_(options), held_(held_directions(model)), newton_(model) {
   const double r = options.spectral_radius;
   alpha_m_ = (2 * r - 1) / (r + 1);
   alpha_f_ = r / (r + 1);
@@ -33,6 +34,8 @@ ImplicitSolver::ImplicitSolver(const Model& model, Assembly& assembly, const Imp
   state_.acceleration = state_.force = state_.interface_force = zero;
   state_.reactions.assign(reaction_count(model), 0.0);
   mean_ = product_ = zero;
+  const auto [least, most] = std::ranges::minmax(model.reference);
+  extent_ = most - least;
 }
 
 void ImplicitSolver::advance(double time, double length) {
@@ -84,26 +87,19 @@ void ImplicitSolver::start(double time) {
   for (std::size_t i = 0; i < sum.size(); ++i)
     needed[i] = model_.node_masses[i / 3] * state_.acceleration[i] - sum[i];
   newton_.slides().carry_over(needed);
-  for_each_support(model_, [&](const Support& support, std::size_t dof, std::size_t offset) {
-    for (std::size_t c = 0; c < 3; ++c)
-      if (support.fixed[c]) state_.reactions[offset + c] = std::exchange(needed[dof + c], 0.0);
-  });
+  for (const HeldDirection& h : held_) state_.reactions[h.reaction] = needed[h.direction];
 }
 
 /// Supports that a table leads have its rate from the start on: from rest they would ring about it. What that gives
 /// their nodes is the supports' work.
 void ImplicitSolver::lead_supports_off(double time) {
-  for_each_support(model_, [&](const Support& support, std::size_t dof, std::size_t) {
-    if (!support.moves()) return;
-    const double rate = support.history.rate_after(time), mass = model_.node_masses[dof / 3];
-    for (std::size_t c = 0; c < 3; ++c) {
-      if (!support.fixed[c]) continue;
-      double& velocity = state_.velocity[dof + c];
-      const double led = rate * support.displacement[static_cast<int>(c)];
-      state_.works.supports += 0.5 * mass * (led * led - velocity * velocity);
-      velocity = led;
-    }
-  });
+  for (const HeldDirection& h : held_) {
+    if (h.displacement == 0) continue;
+    double& velocity = state_.velocity[h.direction];
+    const double led = h.support->history.rate_after(time) * h.displacement;
+    state_.works.supports += 0.5 * h.mass(model_) * (led * led - velocity * velocity);
+    velocity = led;
+  }
 }
 
 void ImplicitSolver::take_interface_force() {
@@ -173,8 +169,9 @@ bool ImplicitSolver::keeps_energy() {
   if (state_.steps < steps_of_overshoot) return true;
   const double change = energy() - energy_before_;
   state_.created += change;
-  return change <= largest_created_by_a_step * state_.largest_energy ||
-         state_.created <= largest_created * state_.largest_energy;
+  const double no_energy = std::numeric_limits<double>::epsilon() * assembly_.largest_element_force() * extent_;
+  return change <= std::max(no_energy, largest_created_by_a_step * state_.largest_energy) ||
+         state_.created <= std::max(no_energy, largest_created * state_.largest_energy);
 }
 
 /// Free directions go on with constant acceleration, supported ones to where they are led.
@@ -182,7 +179,7 @@ void ImplicitSolver::predict(const Step& step) {
   for (std::size_t i = 0; i < state_.displacement.size(); ++i)
     state_.displacement[i] +=
         step.length * (before_.velocity[i] + 0.5 * step.length * before_.acceleration[i]);
-  place_supports(model_, {.time = step.time + step.length}, state_.displacement);
+  place_supports(held_, {.time = step.time + step.length}, state_.displacement);
 }
 
 void ImplicitSolver::update_rates(double dt, std::span<const double> displacement) {
@@ -253,14 +250,11 @@ void ImplicitSolver::account(const Step& step) {
     needed[i] += model_.node_masses[i / 3] * state_.acceleration[i] - state_.force[i];
   }
   newton_.slides().carry_over(needed);
-  for_each_support(model_, [&](const Support& support, std::size_t dof, std::size_t offset) {
-    for (std::size_t c = 0; c < 3; ++c) {
-      if (!support.fixed[c]) continue;
-      state_.works.supports += 0.5 * (state_.reactions[offset + c] + needed[dof + c]) * change[dof + c];
-      state_.reactions[offset + c] = needed[dof + c];
-      needed[dof + c] = 0;
-    }
-  });
+  for (const HeldDirection& h : held_) {
+    const double force = needed[h.direction];
+    state_.works.supports += 0.5 * (state_.reactions[h.reaction] + force) * change[h.direction];
+    state_.reactions[h.reaction] = force;
+  }
   add_works(model_, interface_, {{.time = step.time}, {.time = step.time + step.length}}, change,
             state_.works);
   std::vector<double> damping(n, 0.0);

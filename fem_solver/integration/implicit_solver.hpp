@@ -112,6 +112,7 @@ class ImplicitSolver final : public Integrator {
   Assembly& assembly_;
   ImplicitOptions options_;
   double alpha_m_, alpha_f_, gamma_, beta_;
+  std::vector<HeldDirection> held_;
   Newton newton_;
   ImplicitState state_;
   ImplicitState saved_;
@@ -119,6 +120,7 @@ class ImplicitSolver final : public Integrator {
   std::vector<double> mean_, product_;  ///< velocity inside a step, and stiffness times it
   double force_scale_ = 0;
   std::vector<NewtonReport> reports_;
+  double extent_ = 0;            ///< m; of the structure
   double energy_before_ = 0;     ///< J; at the start of the step in progress
   bool created_energy_ = false;  ///< why the last step was taken back
 };

@@ -1,6 +1,6 @@
 #include "fem_solver/integration/row_sums.hpp"
 
-#include "fem_solver/integration/external_force.hpp"
+#include "fem_solver/constraints/held_directions.hpp"
 
 namespace talus::fem {
 
@@ -12,10 +12,7 @@ std::vector<double> stiffness_row_sums(const Model& model, const Configuration& 
   for_each_part(model, at, [&](std::size_t, const auto& batch, const Configuration& own) {
     batch.stiffness(own, add);
   });
-  for_each_support(model, [&](const Support& support, std::size_t dof, std::size_t) {
-    for (std::size_t c = 0; c < 3; ++c)
-      if (support.fixed[c]) sums[dof + c] = 0;
-  });
+  for (const HeldDirection& h : held_directions(model)) sums[h.direction] = 0;
   return sums;
 }
 

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "core/errors.hpp"
+#include "fem_solver/constraints/held_directions.hpp"
 #include "fem_solver/constraints/nearest_segment.hpp"
-#include "fem_solver/integration/external_force.hpp"
 
 namespace talus::fem {
 namespace {
@@ -39,16 +39,15 @@ void check_nodes(const Model& model) {
         throw core::ConfigError(
             name_of(slide, model, node) +
             " takes part in another slide too, which implicit and static runs do not solve; take `penalty`");
-  for_each_support(model, [&](const Support& support, std::size_t direction, std::size_t) {
-    const auto node = static_cast<Index>(direction / 3);
-    if (uses[direction / 3] != Use::slider || !(support.fixed[0] || support.fixed[1] || support.fixed[2]))
-      return;
+  for (const HeldDirection& h : held_directions(model)) {
+    const auto node = static_cast<Index>(h.direction / 3);
+    if (uses[h.direction / 3] != Use::slider) continue;
     for (const auto& slide : model.constrained_slides)
       if (std::ranges::find(slide.line.sliders, node) != slide.line.sliders.end())
         throw core::ConfigError(
             name_of(slide, model, node) +
             " is supported, so it cannot follow a rope in implicit and static runs; take `penalty`");
-  });
+  }
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "fem_solver/integration/external_force.hpp"
+#include "fem_solver/constraints/held_directions.hpp"
 
 namespace talus::fem {
 
@@ -15,16 +15,13 @@ SlideRun::SlideRun(const Model& model, const SlideLine& line)
   for (auto* array : {&positions_, &velocities_, &forces_, &pulls_}) array->resize(3 * nodes_.size());
   for (const Index node : nodes_)
     inverse_masses_.insert(inverse_masses_.end(), 3, 1 / model.node_masses[static_cast<std::size_t>(node)]);
-  for_each_support(model, [&](const Support& support, std::size_t dof, std::size_t reaction) {
-    const auto found = std::ranges::find(nodes_, static_cast<Index>(dof / 3));
-    if (found == nodes_.end()) return;
-    const auto local = 3 * static_cast<std::size_t>(found - nodes_.begin());
-    for (std::size_t c = 0; c < 3; ++c) {
-      if (!support.fixed[c]) continue;
-      inverse_masses_[local + c] = 0;
-      held_.push_back({local + c, reaction + c});
-    }
-  });
+  for (const HeldDirection& h : held_directions(model)) {
+    const auto found = std::ranges::find(nodes_, static_cast<Index>(h.direction / 3));
+    if (found == nodes_.end()) continue;
+    const std::size_t local = 3 * static_cast<std::size_t>(found - nodes_.begin()) + h.direction % 3;
+    inverse_masses_[local] = 0;
+    held_.push_back({local, h.reaction});
+  }
 }
 
 bool SlideRun::project(const Step& step, const Arrays& arrays) noexcept {

@@ -21,7 +21,7 @@ LoadTime load_time(double time, double end) {
 }  // namespace
 
 StaticSolver::StaticSolver(const Model& model, Assembly& assembly, const StaticOptions& options)
-    : model_(model), assembly_(assembly), options_(options), newton_(model) {
+    : model_(model), assembly_(assembly), options_(options), held_(held_directions(model)), newton_(model) {
   static_cast<State&>(state_) = initial_state(model);
   std::ranges::fill(state_.velocity, 0.0);
   state_.reactions.assign(reaction_count(model), 0);
@@ -66,16 +66,13 @@ void StaticSolver::start(double time) {
 }
 
 void StaticSolver::note_reactions(std::span<const double> sum) {
-  for_each_support(model_, [&](const Support& support, std::size_t dof, std::size_t offset) {
-    for (std::size_t c = 0; c < 3; ++c)
-      if (support.fixed[c]) state_.reactions[offset + c] = -sum[dof + c];
-  });
+  for (const HeldDirection& h : held_) state_.reactions[h.reaction] = -sum[h.direction];
 }
 
 bool StaticSolver::equilibrate(double time) {
   ++steps_;
   const LoadTime when = load_time(time, options_.end);
-  place_supports(model_, when, state_.displacement);
+  place_supports(held_, when, state_.displacement);
   std::ranges::fill(external_, 0.0);
   add_external_force(model_, interface_, when, external_);
   reports_.push_back(newton_.solve(system(), options_.newton, state_.displacement));
@@ -107,14 +104,11 @@ void StaticSolver::account(const StaticState& before, const LoadSpan& span) {
   std::ranges::copy(assembly_.next_memory(), state_.memory.begin());
   newton_.slides().carry_over(sum);
   std::ranges::transform(state_.displacement, before.displacement, change.begin(), std::minus<>{});
-  for_each_support(model_, [&](const Support& support, std::size_t dof, std::size_t offset) {
-    for (std::size_t c = 0; c < 3; ++c) {
-      if (!support.fixed[c]) continue;
-      state_.reactions[offset + c] = -sum[dof + c];
-      state_.works.supports += 0.5 * (before.reactions[offset + c] - sum[dof + c]) * change[dof + c];
-      sum[dof + c] = 0;
-    }
-  });
+  for (const HeldDirection& h : held_) {
+    const double force = -sum[h.direction];
+    state_.works.supports += 0.5 * (before.reactions[h.reaction] + force) * change[h.direction];
+    state_.reactions[h.reaction] = force;
+  }
   add_works(model_, interface_, span, change, state_.works);
 }
 

@@ -65,6 +65,7 @@ class StaticSolver final : public Integrator {
   const Model& model_;
   Assembly& assembly_;
   StaticOptions options_;
+  std::vector<HeldDirection> held_;
   Newton newton_;
   StaticState state_;
   StaticState saved_;

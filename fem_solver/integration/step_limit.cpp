@@ -10,6 +10,7 @@
 
 #include "core/errors.hpp"
 #include "core/units/units.hpp"
+#include "fem_solver/constraints/held_directions.hpp"
 
 namespace talus::fem {
 namespace {
@@ -23,10 +24,7 @@ Vector free_inverse_root_mass(const Model& model) {
     const double mass = model.node_masses[static_cast<std::size_t>(i / 3)];
     scale[i] = mass > 0 ? 1 / std::sqrt(mass) : 0;
   }
-  for (const auto& support : model.supports)
-    for (const Index node : support.nodes)
-      for (int c = 0; c < 3; ++c)
-        if (support.fixed[static_cast<std::size_t>(c)]) scale[3 * node + c] = 0;
+  for (const HeldDirection& h : held_directions(model)) scale[static_cast<Eigen::Index>(h.direction)] = 0;
   return scale;
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/errors.hpp"
+#include "fem_solver/constraints/held_directions.hpp"
 #include "fem_solver/scene/make_elements.hpp"
 #include "fem_solver/scene/node_sets.hpp"
 #include "fem_solver/scene/weld.hpp"
@@ -171,6 +172,7 @@ void Builder::add_conditions() {
       model_.node_masses[static_cast<std::size_t>(node)] += mass.mass;
   for (const auto& initial : scene_.initial_velocities)
     model_.initial_velocities.push_back({select_nodes(model_, initial.where), initial.velocity});
+  held_directions(model_);  // which refuses supports that contradict each other
   model_.gravity = scene_.gravity;
   if (scene_.damping) model_.damping = {.mass = scene_.damping->mass, .stiffness = scene_.damping->stiffness};
 }

@@ -83,6 +83,12 @@ void describe(core::Fields& fields, StructureScene& structure) {
   const auto* implicit = std::get_if<ImplicitScene>(&structure.method);
   fields.rule(!constrained || !implicit || implicit->spectral_radius < 1, "implicit.spectral_radius",
               "has to be below 1 where `slides` hold by constraints: at 1 their forces ring without end");
+  const bool jumps = std::ranges::any_of(structure.supports, [](const SupportScene& support) {
+    return support.displacement && !support.displacement->isZero(0) && support.over_time.empty();
+  });
+  fields.rule(!jumps || std::holds_alternative<StaticScene>(structure.method), "supports",
+              "move by a `displacement` without `over_time`, which in a run through time would be a jump; write how it "
+              "grows, such as `over_time: [[0 s, 0], [0.1 s, 1]]`");
   fields.section("mass_scaling", structure.mass_scaling,
                  "mass on light nodes, for a longer explicit step at the price of slower waves");
   fields.rule(!structure.mass_scaling || is_explicit(structure.method), "mass_scaling",

@@ -18,7 +18,7 @@ Model sheared_panel() {
   constexpr Index columns = 24, rows = 8;
   Model model;
   const auto node = [](Index i, Index j) { return j * (columns + 1) + i; };
-  Support low{.name = "low", .nodes = {}, .fixed = {true, true, true}}, high = low, plane = low;
+  Support low{.name = "low", .nodes = {}, .fixed = {true, true, true}, .history = {}}, high = low, plane = low;
   high.displacement = Vector3(3e-3, 0, 0);
   high.history = {{{0, 0}, {0.16, 1}}};
   plane.fixed = {false, false, true};

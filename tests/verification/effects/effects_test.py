@@ -69,7 +69,7 @@ EFFECTS = {
     "mass-proportional damping": ("net", "structure: {damping: {mass: 5 1/s}}"),
     "stiffness-proportional damping": ("net", "structure: {damping: {stiffness: 1e-7 s}}"),
     "nodal loads": ("net", "structure: {loads: [{nodes: net, force: [0 N, 0 N, -1 N]}]}"),
-    "prescribed motion": ("net", "structure: {supports: [{nodes: net.rim, fix: xyz, displacement: [0 m, 0 m, 0.1 m]}]}"),
+    "prescribed motion": ("net", "structure: {supports: [{nodes: net.rim, fix: xyz, displacement: [0 m, 0 m, 0.1 m], over_time: [[0 s, 0], [1 ms, 1]]}]}"),
     "tension field, principal": ("membrane", "structure: {parts: {net: {membrane: {tension_field: {wrinkle_direction: principal}}}}}"),
     "tension field, iterated": ("membrane", "structure: {parts: {net: {membrane: {tension_field: {wrinkle_direction: iterated}}}}}"),
     "friction of a rope": ("rope", "structure: {parts: {net: {sliding_cable: {friction: 0.2}}}}"),
