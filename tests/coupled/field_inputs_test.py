@@ -50,6 +50,30 @@ class Grids(Inputs):
         self.refused("grids/h_comma", "dem_solver", "h_comma.asc:6:", "'101,5'", "decimals need a point")
 
 
+class Ropes(Inputs):
+    def test_friction_on_a_closed_rope_is_refused(self):
+        self.refused("closed_rope/ring_closure_0.2_1", "fem_solver", "structure.parts.ring", "closes on itself")
+
+    def test_a_support_rope_of_a_barrier_with_friction_runs_to_its_end(self):
+        result = run("barrier/repro_rope_friction_nan", "fem_solver")
+        self.assertEqual(result.done.returncode, 0, result.done.stderr)
+        self.assertEqual(result.summary["status"], "finished")
+
+
+class Energy(Inputs):
+    def test_a_slider_at_rest_dissipates_nothing(self):
+        for column, values in {name: run("slider_damping/constraint_damping_100_0.001", "fem_solver").energy(name)
+                               for name in ("structure.bulk_damping_J", "error_J")}.items():
+            self.assertLess(max(abs(v) for v in values), 1e-9, column)  # of 57.7 J that the unprojected velocities would take
+
+    def test_a_sheared_film_gets_the_work_of_its_edge_and_no_more(self):
+        for scene in ("implicit_panel_tf_5e-5", "implicit_panel_tf_rho0"):
+            with self.subTest(scene=scene):
+                result = run(f"wrinkles_implicit/{scene}", "fem_solver")
+                self.assertEqual(result.done.returncode, 0, result.done.stderr)
+                self.assertAlmostEqual(result.energy("structure.elastic_m_J")[-1], 0.0956549, delta=0.02 * 0.0956549)  # radius 0, any step
+
+
 class Probes(Inputs):
     def test_a_probe_far_from_every_node_is_refused_with_its_distance(self):
         self.refused("probes/metres_for_mm", "talus", "output.probes.net_centre.at", "2117 m from")
