@@ -10,6 +10,10 @@ bool is_kinetic(const LedgerDescription& line) {
   return line.kind == LedgerKind::stored && line.name.find("kinetic") != std::string::npos;
 }
 
+bool is_elastic(const LedgerDescription& line) {
+  return line.kind == LedgerKind::stored && line.name.find("elastic") != std::string::npos;
+}
+
 double sign(LedgerKind kind) {
   switch (kind) {
     case LedgerKind::stored:
@@ -26,12 +30,13 @@ double sign(LedgerKind kind) {
 }  // namespace
 
 LedgerBalance::Row LedgerBalance::add(std::span<const double> joules) {
-  double balance = 0, kinetic = 0, supplied = 0, stored = 0;
+  double balance = 0, kinetic = 0, supplied = 0, stored = 0, elastic = 0;
   most_fallen_.reset();
   for (std::size_t i = 0; i < lines_.size(); ++i) {
     const LedgerKind kind = lines_[i].kind;
     balance += sign(kind) * joules[i];
     if (is_kinetic(lines_[i])) kinetic += joules[i];
+    if (is_elastic(lines_[i])) elastic += joules[i];
     if (kind == LedgerKind::supplied) supplied += joules[i];
     if (kind == LedgerKind::stored) stored += std::abs(joules[i]);
     highest_[i] = started_ ? std::max(highest_[i], joules[i]) : joules[i];
@@ -41,8 +46,11 @@ LedgerBalance::Row LedgerBalance::add(std::span<const double> joules) {
   }
   if (!started_) first_balance_ = balance;
   if (!started_) first_supplied_ = supplied;
+  if (!started_) first_elastic_ = elastic;
   started_ = true;
   scale_ = std::max({scale_, kinetic, std::abs(supplied - first_supplied_)});
+  // in a static run a prestress that is let go does no work on anything
+  if (scale_ > 0) scale_ = std::max(scale_, first_elastic_ - elastic);
   largest_stored_ = std::max(largest_stored_, stored);
   last_.error = balance - first_balance_;
   last_.error_relative = scale_ > 0 ? last_.error / scale_ : 0;

@@ -15,11 +15,12 @@ namespace talus::core {
 ///     (memo lines count nowhere)
 ///     error   = balance now - balance in the first row                         (J)
 ///     scale   = the largest so far of: sum of the stored lines named kinetic;
-///               what was supplied on the whole since the first row             (J)
+///               what was supplied on the whole since the first row;
+///               what the stored lines named elastic have given up since then  (J)
 ///     error_relative = error / scale
 ///
 /// A run that conserves what its ledger counts has an error of zero. The scale is the impact of a rock, what a
-/// fall or a load brings in, whichever is more; a row knows only what came before it, the run's largest error is
+/// fall or a load brings in, what a prestress lets go, whichever is more; a row knows only what came before it, the run's largest error is
 /// measured by the scale of the whole run. error_relative is 0 as long as nothing has moved.
 class LedgerBalance {
  public:
@@ -53,7 +54,7 @@ class LedgerBalance {
   std::vector<LedgerDescription> lines_;
   std::vector<double> highest_;  ///< J; of each line
   bool started_ = false;
-  double first_balance_ = 0, first_supplied_ = 0;
+  double first_balance_ = 0, first_supplied_ = 0, first_elastic_ = 0;
   double scale_ = 0, largest_stored_ = 0, largest_error_ = 0;
   Row last_;
   std::optional<Fall> most_fallen_;

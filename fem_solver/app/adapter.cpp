@@ -10,8 +10,8 @@
 
 #include "core/steps.hpp"
 #include "coupler/scene/interface_scene.hpp"
-#include "fem_solver/constraints/held_directions.hpp"
 #include "fem_solver/app/structure.hpp"
+#include "fem_solver/constraints/held_directions.hpp"
 
 namespace talus::fem {
 namespace {

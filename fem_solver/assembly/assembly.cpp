@@ -45,8 +45,9 @@ Assembly::Assembly(const Model& model) : model_(model) {
   next_memory_ = initial_memory(model);
   memory_begin_.push_back(0);
   for (const auto& part : model.parts)
-    memory_begin_.push_back(memory_begin_.back() +
-                            std::visit([](const auto& batch) { return memory_size_of(batch); }, part.elements));
+    memory_begin_.push_back(
+        memory_begin_.back() +
+        std::visit([](const auto& batch) { return memory_size_of(batch); }, part.elements));
 
   const auto run_of = [](Index node, int sign) { return 2 * static_cast<std::size_t>(node) + (sign < 0); };
   incidence_begin_.assign(2 * static_cast<std::size_t>(model.nodes()) + 1, 0);
@@ -97,19 +98,17 @@ void Assembly::internal_force(const Configuration& at, std::span<double> force) 
 
 void Assembly::stiffness_product(const Configuration& at, std::span<const double> direction,
                                  std::span<double> product) noexcept {
-  compute_slots(at, [&](const auto& batch, const Configuration& own, std::span<double>,
-                        std::span<double> slots, core::Block elements) {
-    batch.stiffness_product(own, direction, slots, elements);
-  });
+  compute_slots(at,
+                [&](const auto& batch, const Configuration& own, std::span<double>, std::span<double> slots,
+                    core::Block elements) { batch.stiffness_product(own, direction, slots, elements); });
   gather(1, product);
 }
 
 void Assembly::stiffest_product(const Configuration& at, std::span<const double> direction,
                                 std::span<double> product) noexcept {
-  compute_slots(at, [&](const auto& batch, const Configuration& own, std::span<double>,
-                        std::span<double> slots, core::Block elements) {
-    batch.stiffest_product(own, direction, slots, elements);
-  });
+  compute_slots(at,
+                [&](const auto& batch, const Configuration& own, std::span<double>, std::span<double> slots,
+                    core::Block elements) { batch.stiffest_product(own, direction, slots, elements); });
   gather(1, product);
 }
 

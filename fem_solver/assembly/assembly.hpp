@@ -53,8 +53,8 @@ class Assembly {
   void gather(double factor, std::span<double> sums) const noexcept;
 
   const Model& model_;
-  std::vector<std::size_t> slot_begin_;  ///< of each part
-  std::vector<double> slots_;            ///< 3 a slot
+  std::vector<std::size_t> slot_begin_;    ///< of each part
+  std::vector<double> slots_;              ///< 3 a slot
   std::vector<std::size_t> memory_begin_;  ///< of each part, and the end
   std::vector<double> next_memory_;
   std::vector<Index> incidence_begin_;  ///< of each node's slots, then of those it feels negated; and the end

@@ -37,8 +37,7 @@ class SparseStiffness {
   SparseStiffness(const Model& model, const Equations& equations);
 
   /// factor * d2U/du2 + diagonal. @param diagonal one a direction, 3 a node
-  const SparseMatrix& assemble(const Configuration& at, double factor,
-                               std::span<const double> diagonal);
+  const SparseMatrix& assemble(const Configuration& at, double factor, std::span<const double> diagonal);
 
  private:
   const Model& model_;

@@ -23,7 +23,8 @@ std::vector<HeldDirection> held_directions(const Model& model) {
       for (std::size_t c = 0; c < 3; ++c) {
         if (!support.fixed[c]) continue;
         const std::size_t direction = 3 * static_cast<std::size_t>(node) + c;
-        const HeldDirection here{direction, reaction + c, &support, support.displacement[static_cast<int>(c)]};
+        const HeldDirection here{direction, reaction + c, &support,
+                                 support.displacement[static_cast<int>(c)]};
         if (holder[direction] == 0) {
           held.push_back(here);
           holder[direction] = held.size();

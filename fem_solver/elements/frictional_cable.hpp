@@ -92,10 +92,8 @@ class FrictionalCable {
         grip_changes.assign(m - 1, 0.0);
         length_changes[j] = RopeSegment(chords(j), properties_.gap).direction[axis];
         if (j > 0)
-          grip_changes[j - 1] =
-              grip_slope(space, j - 1) * wrap_slope(chords(j), chords(j - 1))[axis];
-        if (j + 1 < m)
-          grip_changes[j] = grip_slope(space, j) * wrap_slope(chords(j), chords(j + 1))[axis];
+          grip_changes[j - 1] = grip_slope(space, j - 1) * wrap_slope(chords(j), chords(j - 1))[axis];
+        if (j + 1 < m) grip_changes[j] = grip_slope(space, j) * wrap_slope(chords(j), chords(j + 1))[axis];
         space.friction.tension_changes(properties_.law, space.state(), material,
                                        {length_changes, grip_changes}, tension_changes);
         for (std::size_t i = 0; i < m; ++i)

@@ -12,7 +12,7 @@ constexpr double floor_share = 1e-13;  // of E A
 /// Of the last change of a tension, of E A: what it leaves is of the order of its square.
 constexpr double near_enough = 1e-8;
 constexpr int most_sweeps = 8;
-constexpr int most_iterations = 400;   // bisection alone, which every fifth step is, ends before
+constexpr int most_iterations = 400;  // bisection alone, which every fifth step is, ends before
 
 }  // namespace
 
@@ -21,7 +21,8 @@ bool RopeChain::solve(const RopeLaw& law, const RopeState& state, std::span<cons
   const auto usable = [](double value) { return value > 0 && std::isfinite(value); };
   if (!std::ranges::all_of(state.lengths, usable) || !std::ranges::all_of(old_material, usable)) return false;
   const std::size_t m = old_material.size();
-  for (auto* of_segments : {&root_, &tension_, &before_, &material_, &constant_, &slope_}) of_segments->resize(m);
+  for (auto* of_segments : {&root_, &tension_, &before_, &material_, &constant_, &slope_})
+    of_segments->resize(m);
   slips_.resize(m);
   const Problem problem{law, state, old_material,
                         floor_share * law.section().area * law.section().youngs_modulus};
@@ -44,7 +45,8 @@ bool RopeChain::is_slack(const Problem& problem) noexcept {
 
 /// M_i = max(M_i^old - c, l_i/q_0) with the c >= 0 that keeps the sum: Newton's method on a falling, piecewise linear,
 /// convex function of c climbs to its root without overshoot.
-void RopeChain::share_slack(const Problem& problem, std::span<double> material, std::span<double> slips) noexcept {
+void RopeChain::share_slack(const Problem& problem, std::span<double> material,
+                            std::span<double> slips) noexcept {
   const std::size_t m = material.size();
   double given = 0;
   const auto needed = [&](std::size_t i) { return problem.state.lengths[i] / problem.law.slack_stretch(); };
@@ -75,7 +77,8 @@ bool RopeChain::sweep_tangents(const Problem& problem) noexcept {
   for (std::size_t i = 0; i < m; ++i) {
     const double old = problem.old_material[i],
                  q = std::max(problem.state.lengths[i] / old, problem.law.slack_stretch());
-    const double taut = problem.state.lengths[i] / q;  // less than `old` where slack: the tangent at no tension
+    const double taut =
+        problem.state.lengths[i] / q;  // less than `old` where slack: the tangent at no tension
     tension_[i] = problem.law.tension(q);
     slope_[i] = taut / (q * problem.law.taut_slope(q));
     constant_[i] = old - taut - slope_[i] * tension_[i];
@@ -157,7 +160,8 @@ void RopeChain::tensions_from_roots(const RopeState& state) noexcept {
 }
 
 /// The tension of segment `node` if the next one has `tension`: at the limit where the node slips.
-RopeChain::Seen RopeChain::through_node(const RopeState& state, std::size_t node, double tension) const noexcept {
+RopeChain::Seen RopeChain::through_node(const RopeState& state, std::size_t node,
+                                        double tension) const noexcept {
   const double a = state.grips[node], r = root_[node];
   if (tension * a < r) return {true, tension * a, a};
   if (tension > r * a) return {true, tension / a, 1 / a};
@@ -166,7 +170,8 @@ RopeChain::Seen RopeChain::through_node(const RopeState& state, std::size_t node
 
 /// What segment i holds at a tension, and the derivative with its sign turned.
 RopeChain::Excess RopeChain::held(const Problem& problem, std::size_t i, double tension) noexcept {
-  const double q = problem.law.stretch_at(tension, problem.state.lengths[i] / problem.old_material[i]), taut = problem.state.lengths[i] / q;
+  const double q = problem.law.stretch_at(tension, problem.state.lengths[i] / problem.old_material[i]),
+               taut = problem.state.lengths[i] / q;
   const double by_stretch = taut / (q * problem.law.taut_slope(q));
   if (tension >= problem.floor) return {taut, by_stretch};
   const double slack = problem.old_material[i] * problem.floor / tension;
@@ -192,7 +197,8 @@ RopeChain::Excess RopeChain::excess(const Problem& problem, std::size_t last, do
 /// Newton's method inside a bracket that closes, as the function has kinks.
 double RopeChain::root(const Problem& problem, std::size_t last) const noexcept {
   double low = 0, high = std::numeric_limits<double>::infinity();
-  double N = std::max(problem.floor, problem.law.tension(problem.state.lengths[last] / problem.old_material[last]));
+  double N =
+      std::max(problem.floor, problem.law.tension(problem.state.lengths[last] / problem.old_material[last]));
   for (int iteration = 1; iteration < most_iterations; ++iteration) {
     const Excess at = excess(problem, last, N);
     if (at.metres == 0) return N;
@@ -230,7 +236,8 @@ void RopeChain::settle_run(const Problem& problem, std::size_t first, std::size_
 }
 
 /// Old material is read before the new, which may be the same memory, is written.
-void RopeChain::share_out(const Problem& problem, std::span<double> material, std::span<double> slips) noexcept {
+void RopeChain::share_out(const Problem& problem, std::span<double> material,
+                          std::span<double> slips) noexcept {
   const std::size_t m = material.size();
   for (std::size_t first = 0; first < m;) {
     std::size_t end = first + 1;

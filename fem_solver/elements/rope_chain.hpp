@@ -61,7 +61,8 @@ class RopeChain {
     double tension, constant, slope;  ///< N, m, m/N
   };
   static bool is_slack(const Problem& problem) noexcept;
-  static void share_slack(const Problem& problem, std::span<double> material, std::span<double> slips) noexcept;
+  static void share_slack(const Problem& problem, std::span<double> material,
+                          std::span<double> slips) noexcept;
   bool sweep_tangents(const Problem& problem) noexcept;
   bool roots_of_tangents(const Problem& problem) noexcept;
   void roots_of_excess(const Problem& problem) noexcept;
@@ -79,10 +80,10 @@ class RopeChain {
   void settle_run(const Problem& problem, std::size_t first, std::size_t end) noexcept;
 
   std::vector<double> root_, tension_, before_;  ///< N
-  std::vector<double> material_;            ///< m; by the tensions
-  std::vector<double> constant_, slope_;    ///< m, m/N; of the tangent to M_i^old - M_i(N)
-  std::vector<Corner> left_, right_;        ///< of e_i on either side of its root, the nearest last
-  std::vector<char> slips_;                 ///< whether each node slips
+  std::vector<double> material_;                 ///< m; by the tensions
+  std::vector<double> constant_, slope_;         ///< m, m/N; of the tangent to M_i^old - M_i(N)
+  std::vector<Corner> left_, right_;             ///< of e_i on either side of its root, the nearest last
+  std::vector<char> slips_;                      ///< whether each node slips
 };
 
 }  // namespace talus::fem

@@ -163,12 +163,14 @@ void ExplicitSolver::subtract_stiffness_damping(std::span<double> force) noexcep
 void ExplicitSolver::impose_supports(double time, double step) noexcept {
   const double half_damping = 0.5 * model_.damping.mass * state_.kick;
   const auto hold = [&](std::size_t i, std::size_t reaction, double mass, double velocity_after) {
-    const double momentum_change = (1 + half_damping) * velocity_after - (1 - half_damping) * state_.velocity[i];
+    const double momentum_change =
+        (1 + half_damping) * velocity_after - (1 - half_damping) * state_.velocity[i];
     const double needed = mass * momentum_change / state_.kick;
     state_.reactions[reaction] = needed - state_.force[i];
     state_.force[i] = needed;
   };
-  for (const auto& [direction, reaction] : fixed_) hold(direction, reaction, model_.node_masses[direction / 3], 0.0);
+  for (const auto& [direction, reaction] : fixed_)
+    hold(direction, reaction, model_.node_masses[direction / 3], 0.0);
   for (const HeldDirection& h : led_)
     hold(h.direction, h.reaction, h.mass(model_),
          (h.support->history.at(time + step) * h.displacement - state_.displacement[h.direction]) / step);

@@ -153,7 +153,7 @@ class ExplicitSolver final : public Integrator {
     std::uint32_t direction, reaction;
   };
   std::vector<Fixed> fixed_;
-  std::vector<HeldDirection> led_;  ///< the others
+  std::vector<HeldDirection> led_;       ///< the others
   std::vector<SlideRun> slides_;         ///< of the model's constrained slides
   std::vector<double> velocity_before_;  ///< m/s; of the step in progress, where there are slides
   std::vector<double> inverse_mass_;     ///< 1/kg; of each direction, 0 for a node without mass

@@ -37,7 +37,8 @@ void add_works(const Model& model, const InterfaceForce& interface, const LoadSp
                std::span<const double> change_of_displacement, ExternalWorks& works) noexcept;
 
 /// Puts the held directions where they are led.
-void place_supports(std::span<const HeldDirection> held, const LoadTime& when, std::span<double> displacement) noexcept;
+void place_supports(std::span<const HeldDirection> held, const LoadTime& when,
+                    std::span<double> displacement) noexcept;
 
 /// 3 a node of each support.
 std::size_t reaction_count(const Model& model);

@@ -148,7 +148,9 @@ bool ImplicitSolver::take(const Step& step) {
 
 /// What is on the move, stored and dissipated, less what came from outside.
 double ImplicitSolver::energy() const {
-  const auto sum = [](const std::vector<double>& joules) { return std::accumulate(joules.begin(), joules.end(), 0.0); };
+  const auto sum = [](const std::vector<double>& joules) {
+    return std::accumulate(joules.begin(), joules.end(), 0.0);
+  };
   const ExternalWorks& works = state_.works;
   return kinetic() + sum(elastic_by_parts(model_, state_.configuration())) +
          sum(dissipated_by_parts(model_, state_.configuration())) + state_.damped -
@@ -164,12 +166,14 @@ double ImplicitSolver::kinetic() const {
 
 bool ImplicitSolver::keeps_energy() {
   const ExternalWorks& works = state_.works;
-  state_.largest_energy = std::max({state_.largest_energy, kinetic(),
-                                    std::abs(works.gravity + works.loads + works.interface + works.supports)});
+  state_.largest_energy =
+      std::max({state_.largest_energy, kinetic(),
+                std::abs(works.gravity + works.loads + works.interface + works.supports)});
   if (state_.steps < steps_of_overshoot) return true;
   const double change = energy() - energy_before_;
   state_.created += change;
-  const double no_energy = std::numeric_limits<double>::epsilon() * assembly_.largest_element_force() * extent_;
+  const double no_energy =
+      std::numeric_limits<double>::epsilon() * assembly_.largest_element_force() * extent_;
   return change <= std::max(no_energy, largest_created_by_a_step * state_.largest_energy) ||
          state_.created <= std::max(no_energy, largest_created * state_.largest_energy);
 }
@@ -277,14 +281,14 @@ EnergyBalance ImplicitSolver::balance() {
 
 void ImplicitSolver::report_failure(const Step& step) const {
   if (created_energy_)
-    throw core::NumericalError(
-        {.what = "the step creates energy from nothing, even 1/1024 of it; write `implicit: {spectral_radius: 0.5}`, "
-                 "which takes what a step cannot follow, or a shorter step",
-         .entity = "energy created so far (J)",
-         .step = state_.steps,
-         .time = step.time,
-         .value = state_.created,
-         .last_output_time = last_output_time});
+    throw core::NumericalError({.what = "the step creates energy from nothing, even 1/1024 of it; write "
+                                        "`implicit: {spectral_radius: 0.5}`, "
+                                        "which takes what a step cannot follow, or a shorter step",
+                                .entity = "energy created so far (J)",
+                                .step = state_.steps,
+                                .time = step.time,
+                                .value = state_.created,
+                                .last_output_time = last_output_time});
   throw core::NumericalError(
       {.what = "Newton's iteration does not converge, even for 1/1024 of the step",
        .entity = "relative residual of " + node_name(model_, reports_.back().worst_direction / 3),

@@ -25,8 +25,8 @@ struct ImplicitState : State {
   std::vector<double> reactions;        ///< N; 3 a supported node
   ExternalWorks works{};                ///< J
   double damped = 0;                    ///< J
-  double created = 0;                   ///< J; energy that came from nowhere so far, by the balance; negative: lost
-  double largest_energy = 0;            ///< J; on the move or supplied, so far
+  double created = 0;         ///< J; energy that came from nowhere so far, by the balance; negative: lost
+  double largest_energy = 0;  ///< J; on the move or supplied, so far
   std::int64_t steps = 0;
   bool operator==(const ImplicitState&) const = default;
 };
@@ -116,7 +116,7 @@ class ImplicitSolver final : public Integrator {
   Newton newton_;
   ImplicitState state_;
   ImplicitState saved_;
-  ImplicitState before_;                        ///< the start of the step in progress
+  ImplicitState before_;                ///< the start of the step in progress
   std::vector<double> mean_, product_;  ///< velocity inside a step, and stiffness times it
   double force_scale_ = 0;
   std::vector<NewtonReport> reports_;

@@ -22,12 +22,15 @@ Newton::Newton(const Model& model)
 NewtonReport Newton::solve(const NewtonSystem& system, const NewtonOptions& options,
                            std::vector<double>& displacement) {
   NewtonReport report;
+  last_residual_ = std::numeric_limits<double>::infinity();
   slides_.start(displacement);
   evaluate(system, displacement);
-  for (int iteration = 0; !measure(system, options, report); ++iteration) {
+  for (int iteration = 0; !measure(system, options, displacement, report); ++iteration) {
     if (iteration == options.most_iterations || !std::isfinite(report.residuals.back())) return report;
     if (slides_.exists()) solver_.forget_pattern();
-    const double shift = solver_.factorise_shifted(tangent(system, displacement));
+    const SparseMatrix derivative = tangent(system, displacement);
+    stiffest_ = equations_.count() > 0 ? derivative.diagonal().cwiseAbs().maxCoeff() : 0;
+    const double shift = solver_.factorise_shifted(derivative);
     const Eigen::VectorXd step = solver_.solve(equations_.gather(residual_));
     if (shift > 0) ++report.shifted;
     if (search_along(system, step, displacement)) ++report.cut;
@@ -61,12 +64,14 @@ void Newton::evaluate(const NewtonSystem& system, const std::vector<double>& dis
 }
 
 SparseMatrix Newton::tangent(const NewtonSystem& system, std::span<const double> displacement) {
-  const SparseMatrix& free = stiffness_.assemble({displacement, system.memory}, system.stiffness_factor, system.diagonal);
+  const SparseMatrix& free =
+      stiffness_.assemble({displacement, system.memory}, system.stiffness_factor, system.diagonal);
   return slides_.exists() ? slides_.condense_with_curvature(free) : free;
 }
 
 /// Notes the largest residual. @returns whether it is small enough
-bool Newton::measure(const NewtonSystem& system, const NewtonOptions& options, NewtonReport& report) {
+bool Newton::measure(const NewtonSystem& system, const NewtonOptions& options,
+                     std::span<const double> displacement, NewtonReport& report) {
   double largest = 0;
   for (Index k = 0; k < equations_.count(); ++k) {
     const double size = std::abs(residual_[static_cast<std::size_t>(equations_.direction(k))]);
@@ -76,7 +81,17 @@ bool Newton::measure(const NewtonSystem& system, const NewtonOptions& options, N
   }
   const double scale = system.force_scale();
   report.residuals.push_back(largest == 0 ? 0 : largest / scale);
-  return report.residuals.back() <= options.tolerance;
+  const bool falls = largest < 0.5 * last_residual_;
+  last_residual_ = largest;
+  return report.residuals.back() <= options.tolerance || (!falls && largest <= round_off(displacement));
+}
+
+/// Forces are differences of terms as large as stiffness times displacement.
+double Newton::round_off(std::span<const double> displacement) const {
+  constexpr double roundings = 8;
+  double farthest = 0;
+  for (const double u : displacement) farthest = std::max(farthest, std::abs(u));
+  return roundings * std::numeric_limits<double>::epsilon() * stiffest_ * farthest;
 }
 
 /// Goes along `step` as far as the slope allows and leaves the residual there. @returns whether that was less

@@ -23,7 +23,10 @@ struct NewtonSystem {
 };
 
 struct NewtonOptions {
-  double tolerance = 1e-10;  ///< largest residual over force_scale
+  /// Largest residual over force_scale. Where all forces vanish (a prestressed bar let go)
+  /// a residual that falls no more, and is round-off of the stiffness times the displacements, is
+  /// enough.
+  double tolerance = 1e-10;
   int most_iterations = 60;
 };
 
@@ -65,7 +68,8 @@ class Newton {
 
  private:
   void evaluate(const NewtonSystem& system, const std::vector<double>& displacement);
-  bool measure(const NewtonSystem& system, const NewtonOptions& options, NewtonReport& report);
+  bool measure(const NewtonSystem& system, const NewtonOptions& options, std::span<const double> displacement,
+               NewtonReport& report);
   bool search_along(const NewtonSystem& system, const Eigen::VectorXd& step,
                     std::vector<double>& displacement);
 
@@ -73,7 +77,11 @@ class Newton {
   SparseStiffness stiffness_;
   SlideElimination slides_;
   LinearSolver solver_;
+  double round_off(std::span<const double> displacement) const;
+
   std::vector<double> residual_, trial_;
+  double last_residual_ = 0;  ///< N
+  double stiffest_ = 0;       ///< N/m; the largest diagonal entry of the last tangent
   std::int64_t evaluations_ = 0;
 };
 

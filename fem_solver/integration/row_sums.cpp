@@ -9,9 +9,8 @@ std::vector<double> stiffness_row_sums(const Model& model, const Configuration& 
   const auto add = [&](Index row, Index, const Matrix3& block) {
     Vector3::Map(&sums[3 * static_cast<std::size_t>(row)]) += block.cwiseAbs().rowwise().sum();
   };
-  for_each_part(model, at, [&](std::size_t, const auto& batch, const Configuration& own) {
-    batch.stiffness(own, add);
-  });
+  for_each_part(model, at,
+                [&](std::size_t, const auto& batch, const Configuration& own) { batch.stiffness(own, add); });
   for (const HeldDirection& h : held_directions(model)) sums[h.direction] = 0;
   return sums;
 }

@@ -20,7 +20,7 @@ struct StaticOptions {
 /// A moment of a static run, at equilibrium; its velocity stays zero.
 struct StaticState : State {
   std::vector<double> reactions;  ///< N
-  ExternalWorks works;  ///< J
+  ExternalWorks works;            ///< J
   bool operator==(const StaticState&) const = default;
 };
 

@@ -65,8 +65,7 @@ Upper upper_of(const Tridiagonal& made) {
 
 /// Lanczos iteration from the fixed start vector; visit(q) sees every vector of the basis.
 template <class Visit>
-Tridiagonal iterate(Assembly& assembly, const Configuration& at, const Vector& scale,
-                    Visit&& visit) {
+Tridiagonal iterate(Assembly& assembly, const Configuration& at, const Vector& scale, Visit&& visit) {
   constexpr std::size_t most_products = 80;
   Tridiagonal made;
   Vector q = start_vector(scale), before = Vector::Zero(q.size()), x(q.size()), r(q.size());
@@ -266,8 +265,8 @@ class BoundSearch {
     Index shortest = -1;
     double seconds = std::numeric_limits<double>::infinity();
     for (Index e = 0; e < batch.size(); ++e) {
-      const double passage = batch.reference_length(e) *
-                             std::sqrt(batch.part().density / batch.wave_moduli(part_, e).along);
+      const double passage =
+          batch.reference_length(e) * std::sqrt(batch.part().density / batch.wave_moduli(part_, e).along);
       if (passage < seconds) seconds = passage, shortest = e;
     }
     if (shortest < 0) return "";

@@ -21,10 +21,10 @@ class StepWatch {
 
   struct Moment {
     Configuration at;
-    double step = 0;                       ///< s, of the steps to come
-    double time = 0;                       ///< s
-    std::int64_t steps = 0;                ///< taken so far
-    double last_output_time = -1;          ///< s; negative: none
+    double step = 0;               ///< s, of the steps to come
+    double time = 0;               ///< s
+    std::int64_t steps = 0;        ///< taken so far
+    double last_output_time = -1;  ///< s; negative: none
   };
   /// @throws core::NumericalError where the step is above the limit at this moment; names the node where the
   /// structure is stiffest for its mass

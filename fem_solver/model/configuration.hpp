@@ -13,8 +13,8 @@ struct Configuration {
   std::span<const double> memory;
 
   template <class Values>
-    requires std::convertible_to<const Values&, std::span<const double>>
-  Configuration(const Values& of_nodes) : displacement(of_nodes) {}
+  requires std::convertible_to<const Values&, std::span<const double>> Configuration(const Values& of_nodes)
+      : displacement(of_nodes) {}
   Configuration(std::span<const double> of_nodes, std::span<const double> of_elements)
       : displacement(of_nodes), memory(of_elements) {}
 };
@@ -24,6 +24,8 @@ struct Configuration {
 ///   internal_force(at, next, slots, range)         fills `next` with the memory if this state is accepted
 ///   dissipated(at)                                 J, up to the memory given
 template <class Batch>
-concept Remembers = requires(const Batch& batch) { batch.memory_size(); };
+concept Remembers = requires(const Batch& batch) {
+  batch.memory_size();
+};
 
 }  // namespace talus::fem

@@ -15,7 +15,8 @@ double gap_of(const FrictionalCableBatch::Description& description, const RopeLi
 std::vector<double> friction_of(const FrictionalCableBatch::Description& description, const RopeLine& line) {
   if (line.nodes().front() == line.nodes().back())
     throw core::ConfigError(
-        "a rope with friction has two ends, but this one closes on itself; let it end beside the node it began at");
+        "a rope with friction has two ends, but this one closes on itself; let it end beside the node it "
+        "began at");
   const auto inner = static_cast<std::size_t>(line.segments()) - 1;
   return description.friction.size() == 1 ? std::vector<double>(inner, description.friction.front())
                                           : description.friction;

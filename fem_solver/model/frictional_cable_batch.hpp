@@ -57,10 +57,9 @@ class FrictionalCableBatch {
   /// With the slip that follows; not symmetric.
   template <class Sink>
   void stiffness(const Configuration& at, const Sink& sink) const {
-    cable_.stiffness(line_.chords(at.displacement), material(at),
-                     [&](std::size_t i, std::size_t j, const Matrix3& block) {
-                       line_.spread_block(i, j, block, sink);
-                     });
+    cable_.stiffness(
+        line_.chords(at.displacement), material(at),
+        [&](std::size_t i, std::size_t j, const Matrix3& block) { line_.spread_block(i, j, block, sink); });
   }
   double dissipated(const Configuration& at) const noexcept;  ///< J
 

@@ -123,17 +123,15 @@ void MembraneBatch<Law>::product(const Configuration& at, std::span<const double
 }
 
 template <class Law>
-void MembraneBatch<Law>::stiffness_product(const Configuration& at,
-                                           std::span<const double> direction, std::span<double> slots,
-                                           core::Block elements) const noexcept {
+void MembraneBatch<Law>::stiffness_product(const Configuration& at, std::span<const double> direction,
+                                           std::span<double> slots, core::Block elements) const noexcept {
   for (auto e = static_cast<Index>(elements.begin); e < elements.end; ++e)
     product(at, direction, law_.tangent(deformation(at, e).strain), e, slots);
 }
 
 template <class Law>
-void MembraneBatch<Law>::stiffest_product(const Configuration& at,
-                                          std::span<const double> direction, std::span<double> slots,
-                                          core::Block elements) const noexcept {
+void MembraneBatch<Law>::stiffest_product(const Configuration& at, std::span<const double> direction,
+                                          std::span<double> slots, core::Block elements) const noexcept {
   for (auto e = static_cast<Index>(elements.begin); e < elements.end; ++e)
     product(at, direction, law_.stiffest_tangent(), e, slots);
 }

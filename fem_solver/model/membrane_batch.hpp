@@ -47,13 +47,12 @@ class MembraneBatch {
     }
   }
 
-  void internal_force(const Configuration& at, std::span<double> slots,
-                      core::Block elements) const noexcept;
-  void stiffness_product(const Configuration& at, std::span<const double> direction,
-                         std::span<double> slots, core::Block elements) const noexcept;
+  void internal_force(const Configuration& at, std::span<double> slots, core::Block elements) const noexcept;
+  void stiffness_product(const Configuration& at, std::span<const double> direction, std::span<double> slots,
+                         core::Block elements) const noexcept;
   /// With the moduli of the taut sheet, which those of a wrinkled or slack one never exceed.
-  void stiffest_product(const Configuration& at, std::span<const double> direction,
-                        std::span<double> slots, core::Block elements) const noexcept;
+  void stiffest_product(const Configuration& at, std::span<const double> direction, std::span<double> slots,
+                        core::Block elements) const noexcept;
   double energy(const Configuration& at) const noexcept;
   void add_mass(std::span<double> node_masses) const noexcept;
 
@@ -64,8 +63,8 @@ class MembraneBatch {
       const Matrix9 K = element_stiffness(at, e);
       for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j)
-          sink(triangles_[place(e)][static_cast<std::size_t>(i)], triangles_[place(e)][static_cast<std::size_t>(j)],
-               Matrix3(K.block<3, 3>(3 * i, 3 * j)));
+          sink(triangles_[place(e)][static_cast<std::size_t>(i)],
+               triangles_[place(e)][static_cast<std::size_t>(j)], Matrix3(K.block<3, 3>(3 * i, 3 * j)));
     }
   }
 
@@ -79,13 +78,12 @@ class MembraneBatch {
   static constexpr Index lanes = static_cast<Index>(Lanes::size());
   static std::size_t place(Index i) { return static_cast<std::size_t>(i); }
   std::array<Triple<double>, 2> relative(std::span<const double> values, Index e) const noexcept;
-  MembraneTriangle<double>::Deformation deformation(const Configuration& at,
-                                                    Index e) const noexcept;
+  MembraneTriangle<double>::Deformation deformation(const Configuration& at, Index e) const noexcept;
   Matrix9 element_stiffness(const Configuration& at, Index e) const;
   void pack_force(const Configuration& at, std::span<double> slots, Index pack) const noexcept;
   /// Slots of K times a direction with the given moduli.
-  void product(const Configuration& at, std::span<const double> direction,
-               const PlaneMatrix& moduli, Index e, std::span<double> slots) const noexcept;
+  void product(const Configuration& at, std::span<const double> direction, const PlaneMatrix& moduli, Index e,
+               std::span<double> slots) const noexcept;
 
   MembranePart part_;
   Law law_;

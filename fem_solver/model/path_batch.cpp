@@ -16,8 +16,8 @@ PathBatch<Law>::PathBatch(Description description, std::vector<std::array<Index,
 }
 
 template <class Law>
-void PathBatch<Law>::internal_force(const Configuration& at, std::span<double> next,
-                                    std::span<double> slots, core::Block elements) const noexcept {
+void PathBatch<Law>::internal_force(const Configuration& at, std::span<double> next, std::span<double> slots,
+                                    core::Block elements) const noexcept {
   for (auto e = static_cast<Index>(elements.begin); e < elements.end; ++e) {
     const Vector3 d = chord(at.displacement, e);
     const AxialResponse response = segment(e).respond(d, kept(at, e));
@@ -27,9 +27,8 @@ void PathBatch<Law>::internal_force(const Configuration& at, std::span<double> n
 }
 
 template <class Law>
-void PathBatch<Law>::stiffness_product(const Configuration& at,
-                                       std::span<const double> direction, std::span<double> slots,
-                                       core::Block elements) const noexcept {
+void PathBatch<Law>::stiffness_product(const Configuration& at, std::span<const double> direction,
+                                       std::span<double> slots, core::Block elements) const noexcept {
   for (auto e = static_cast<Index>(elements.begin); e < elements.end; ++e) {
     const Vector3 d = chord(at.displacement, e);
     Vector3::Map(&slots[3 * place(e)]) =

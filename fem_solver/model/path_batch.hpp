@@ -39,11 +39,11 @@ class PathBatch {
 
   void internal_force(const Configuration& at, std::span<double> next, std::span<double> slots,
                       core::Block elements) const noexcept;
-  void stiffness_product(const Configuration& at, std::span<const double> direction,
-                         std::span<double> slots, core::Block elements) const noexcept;
+  void stiffness_product(const Configuration& at, std::span<const double> direction, std::span<double> slots,
+                         core::Block elements) const noexcept;
   /// At the law's initial stiffness, to which it may unload in any step.
-  void stiffest_product(const Configuration& at, std::span<const double> direction,
-                        std::span<double> slots, core::Block elements) const noexcept;
+  void stiffest_product(const Configuration& at, std::span<const double> direction, std::span<double> slots,
+                        core::Block elements) const noexcept;
   double energy(const Configuration& at) const noexcept;
   void add_mass(std::span<double> node_masses) const noexcept;
   template <class Sink>
@@ -64,7 +64,9 @@ class PathBatch {
     return chord(at.displacement, e).norm() - lengths_[place(e)];
   }
   /// Largest elongation of a brake (m), plastic strain of a rope (1); of the steps accepted.
-  double kept(const Configuration& at, Index e) const noexcept { return at.memory.empty() ? 0 : at.memory[place(e)]; }
+  double kept(const Configuration& at, Index e) const noexcept {
+    return at.memory.empty() ? 0 : at.memory[place(e)];
+  }
 
  private:
   static std::size_t place(Index i) { return static_cast<std::size_t>(i); }

@@ -52,9 +52,8 @@ void PenaltySlideBatch::internal_force(const Configuration& at, std::span<double
   });
 }
 
-void PenaltySlideBatch::stiffness_product(const Configuration& at,
-                                          std::span<const double> direction, std::span<double> slots,
-                                          core::Block) const noexcept {
+void PenaltySlideBatch::stiffness_product(const Configuration& at, std::span<const double> direction,
+                                          std::span<double> slots, core::Block) const noexcept {
   fill_slots(at, slots, [&](std::size_t k, const Contact& touched) {
     const Index* rope = &line_.rope[touched.segment];
     return touched.spring.stiffness_product({node_value(direction, rope[0]), node_value(direction, rope[1]),
@@ -62,9 +61,8 @@ void PenaltySlideBatch::stiffness_product(const Configuration& at,
   });
 }
 
-void PenaltySlideBatch::stiffest_product(const Configuration& at,
-                                         std::span<const double> direction, std::span<double> slots,
-                                         core::Block) const noexcept {
+void PenaltySlideBatch::stiffest_product(const Configuration& at, std::span<const double> direction,
+                                         std::span<double> slots, core::Block) const noexcept {
   fill_slots(at, slots, [&](std::size_t k, const Contact& touched) -> PenaltySlide::Nodes {
     const bool second_is_nearer = touched.spring.fraction() > 0.5;
     const Index nearest = line_.rope[touched.segment + (second_is_nearer ? 1 : 0)];
@@ -88,8 +86,7 @@ double PenaltySlideBatch::gap(const Configuration& at, std::size_t slider) const
 double PenaltySlideBatch::place(const Configuration& at, std::size_t slider) const noexcept {
   const auto [nearest, spring] = contact(at, slider);
   const auto length = [&](std::size_t segment) {
-    return (position(at, line_.rope[segment + 1]) - position(at, line_.rope[segment]))
-        .norm();
+    return (position(at, line_.rope[segment + 1]) - position(at, line_.rope[segment])).norm();
   };
   double sum = spring.fraction() * length(nearest);
   for (std::size_t segment = 0; segment < nearest; ++segment) sum += length(segment);

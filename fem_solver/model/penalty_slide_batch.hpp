@@ -33,14 +33,13 @@ class PenaltySlideBatch {
     for (const Index node : line_.rope) visit(node, slot++, +1);
   }
 
-  void internal_force(const Configuration& at, std::span<double> slots,
-                      core::Block) const noexcept;
-  void stiffness_product(const Configuration& at, std::span<const double> direction,
-                         std::span<double> slots, core::Block) const noexcept;
+  void internal_force(const Configuration& at, std::span<double> slots, core::Block) const noexcept;
+  void stiffness_product(const Configuration& at, std::span<const double> direction, std::span<double> slots,
+                         core::Block) const noexcept;
   /// As if every slider stood at the rope node nearest to it, where its spring has only that node's mass to
   /// pull; without the geometric part, a share gap/segment of the rest.
-  void stiffest_product(const Configuration& at, std::span<const double> direction,
-                        std::span<double> slots, core::Block elements) const noexcept;
+  void stiffest_product(const Configuration& at, std::span<const double> direction, std::span<double> slots,
+                        core::Block elements) const noexcept;
   double energy(const Configuration& at) const noexcept;
   void add_mass(std::span<double>) const noexcept {}
   /// Distance of slider k from the rope (m).
@@ -86,8 +85,7 @@ class PenaltySlideBatch {
   Contact contact(const Configuration& at, std::size_t slider) const noexcept;
   /// Fills the slots with force_on(slider, contact): forces on the segment's two nodes and on the slider.
   template <class ForceOn>
-  void fill_slots(const Configuration& at, std::span<double> slots,
-                  ForceOn&& force_on) const noexcept;
+  void fill_slots(const Configuration& at, std::span<double> slots, ForceOn&& force_on) const noexcept;
 
   SlideLine line_;
   double penalty_;

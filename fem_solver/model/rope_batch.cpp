@@ -75,15 +75,13 @@ void SlidingCableBatch::internal_force(const Configuration& at, std::span<double
   cable_.segment_forces(line_.chords(at.displacement), into(slots));
 }
 
-void SlidingCableBatch::stiffness_product(const Configuration& at,
-                                          std::span<const double> direction, std::span<double> slots,
-                                          core::Block) const noexcept {
+void SlidingCableBatch::stiffness_product(const Configuration& at, std::span<const double> direction,
+                                          std::span<double> slots, core::Block) const noexcept {
   cable_.stiffness_product(line_.chords(at.displacement), line_.differences(direction), into(slots));
 }
 
-void SlidingCableBatch::stiffest_product(const Configuration& at,
-                                         std::span<const double> direction, std::span<double> slots,
-                                         core::Block) const noexcept {
+void SlidingCableBatch::stiffest_product(const Configuration& at, std::span<const double> direction,
+                                         std::span<double> slots, core::Block) const noexcept {
   cable_.taut_stiffness_product(line_.chords(at.displacement), line_.differences(direction), into(slots));
 }
 

@@ -90,13 +90,12 @@ class SlidingCableBatch {
     line_.for_each_incidence(visit);
   }
 
-  void internal_force(const Configuration& at, std::span<double> slots,
-                      core::Block) const noexcept;
-  void stiffness_product(const Configuration& at, std::span<const double> direction,
-                         std::span<double> slots, core::Block) const noexcept;
+  void internal_force(const Configuration& at, std::span<double> slots, core::Block) const noexcept;
+  void stiffness_product(const Configuration& at, std::span<const double> direction, std::span<double> slots,
+                         core::Block) const noexcept;
   /// As if the rope were taut.
-  void stiffest_product(const Configuration& at, std::span<const double> direction,
-                        std::span<double> slots, core::Block) const noexcept;
+  void stiffest_product(const Configuration& at, std::span<const double> direction, std::span<double> slots,
+                        core::Block) const noexcept;
   double energy(const Configuration& at) const noexcept {
     return cable_.energy(line_.chords(at.displacement));
   }

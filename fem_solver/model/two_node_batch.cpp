@@ -25,8 +25,8 @@ void TwoNodeBatch<Compression>::internal_force(const Configuration& at, std::spa
 }
 
 template <class Compression>
-void TwoNodeBatch<Compression>::stiffness_product(const Configuration& at,
-                                                  std::span<const double> direction, std::span<double> slots,
+void TwoNodeBatch<Compression>::stiffness_product(const Configuration& at, std::span<const double> direction,
+                                                  std::span<double> slots,
                                                   core::Block elements) const noexcept {
   for (auto e = static_cast<Index>(elements.begin); e < elements.end; ++e)
     Vector3::Map(&slots[3 * place(e)]) =
@@ -34,8 +34,8 @@ void TwoNodeBatch<Compression>::stiffness_product(const Configuration& at,
 }
 
 template <class Compression>
-void TwoNodeBatch<Compression>::stiffest_product(const Configuration& at,
-                                                 std::span<const double> direction, std::span<double> slots,
+void TwoNodeBatch<Compression>::stiffest_product(const Configuration& at, std::span<const double> direction,
+                                                 std::span<double> slots,
                                                  core::Block elements) const noexcept {
   for (auto e = static_cast<Index>(elements.begin); e < elements.end; ++e)
     Vector3::Map(&slots[3 * place(e)]) =

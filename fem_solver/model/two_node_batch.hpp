@@ -38,12 +38,11 @@ class TwoNodeBatch {
     for_each_pair_incidence(segments_, visit);
   }
 
-  void internal_force(const Configuration& at, std::span<double> slots,
-                      core::Block elements) const noexcept;
-  void stiffness_product(const Configuration& at, std::span<const double> direction,
-                         std::span<double> slots, core::Block elements) const noexcept;
-  void stiffest_product(const Configuration& at, std::span<const double> direction,
-                        std::span<double> slots, core::Block elements) const noexcept;
+  void internal_force(const Configuration& at, std::span<double> slots, core::Block elements) const noexcept;
+  void stiffness_product(const Configuration& at, std::span<const double> direction, std::span<double> slots,
+                         core::Block elements) const noexcept;
+  void stiffest_product(const Configuration& at, std::span<const double> direction, std::span<double> slots,
+                        core::Block elements) const noexcept;
   double energy(const Configuration& at) const noexcept;
   void add_mass(std::span<double> node_masses) const noexcept;
 

@@ -35,10 +35,9 @@ struct Quantities {
   static constexpr CellQuantity<Batch> cells[] = {
       {"axial_force", "N", [](const Batch& b, At u, Index e) { return b.axial_force(u, e); }},
       {"stress", "Pa", [](const Batch& b, At u, Index e) { return b.stress(u, e); }}};
-  static constexpr PartQuantity<Batch> whole[] = {{"axial_force_max_N", [](const Batch& b, At u) {
-                                                     return largest(
-                                                         b, [&](Index e) { return b.axial_force(u, e); });
-                                                   }}};
+  static constexpr PartQuantity<Batch> whole[] = {
+      {"axial_force_max_N",
+       [](const Batch& b, At u) { return largest(b, [&](Index e) { return b.axial_force(u, e); }); }}};
 };
 
 struct RopeQuantities {
@@ -49,8 +48,7 @@ struct RopeQuantities {
       {"stress", "Pa", [](const Batch& b, At u, Index) { return b.stress(u); }}};
   static constexpr PartQuantity<Batch> whole[] = {
       {"axial_force_max_N", [](const Batch& b, At u) { return b.tension(u); }},
-      {"elongation_m",
-       [](const Batch& b, At u) { return b.length(u) - b.line().reference_length(); }}};
+      {"elongation_m", [](const Batch& b, At u) { return b.length(u) - b.line().reference_length(); }}};
 };
 
 struct FrictionalRopeQuantities {
@@ -67,8 +65,7 @@ struct FrictionalRopeQuantities {
          for (Index e = 0; e < b.line().segments(); ++e) result = std::max(result, b.tension(u, e));
          return result;
        }},
-      {"elongation_m",
-       [](const Batch& b, At u) { return b.length(u) - b.line().reference_length(); }},
+      {"elongation_m", [](const Batch& b, At u) { return b.length(u) - b.line().reference_length(); }},
       {"slip_max_m",
        [](const Batch& b, At u) {
          double result = 0;
@@ -93,9 +90,7 @@ struct PathQuantities {
        [](const Batch& b, At u, Index e) { return b.kept(u, e); }}};
   static constexpr PartQuantity<Batch> whole[] = {
       {"axial_force_max_N",
-       [](const Batch& b, At u) {
-         return largest(b, [&](Index e) { return b.axial_force(u, e); });
-       }},
+       [](const Batch& b, At u) { return largest(b, [&](Index e) { return b.axial_force(u, e); }); }},
       {is_brake ? "travel_max_m" : "plastic_strain_max_1",
        [](const Batch& b, At u) { return largest(b, [&](Index e) { return b.kept(u, e); }); }},
       {"dissipated_J", [](const Batch& b, At u) { return b.dissipated(u); }}};
@@ -125,8 +120,7 @@ struct MembraneQuantities {
        [](const Batch& b, At u) {
          return largest(b, [&](Index e) { return larger_principal(b.stress(u, e)); });
        }},
-      {"wrinkled_area_m2",
-       [](const Batch& b, At u) { return area_in(b, u, SheetState::wrinkled); }},
+      {"wrinkled_area_m2", [](const Batch& b, At u) { return area_in(b, u, SheetState::wrinkled); }},
       {"slack_area_m2", [](const Batch& b, At u) { return area_in(b, u, SheetState::slack); }}};
 };
 
@@ -135,10 +129,8 @@ struct SlideQuantities {
   static constexpr core::CellKind kind = core::CellKind::vertex;
   static constexpr CellQuantity<Batch> cells[] = {
       {"gap", "m", [](const Batch& b, At u, Index k) { return b.gap(u, std::size_t(k)); }},
-      {"slide_force", "N",
-       [](const Batch& b, At u, Index k) { return b.force(u, std::size_t(k)); }},
-      {"place_on_rope", "m",
-       [](const Batch& b, At u, Index k) { return b.place(u, std::size_t(k)); }}};
+      {"slide_force", "N", [](const Batch& b, At u, Index k) { return b.force(u, std::size_t(k)); }},
+      {"place_on_rope", "m", [](const Batch& b, At u, Index k) { return b.place(u, std::size_t(k)); }}};
   template <class Value>
   static double largest_of(const Batch& b, const Value& value) {
     double result = 0;
@@ -146,11 +138,10 @@ struct SlideQuantities {
     return result;
   }
   static constexpr PartQuantity<Batch> whole[] = {
-      {"gap_max_m", [](const Batch& b,
-                       At u) { return largest_of(b, [&](std::size_t k) { return b.gap(u, k); }); }},
-      {"slide_force_max_N", [](const Batch& b, At u) {
-         return largest_of(b, [&](std::size_t k) { return b.force(u, k); });
-       }}};
+      {"gap_max_m",
+       [](const Batch& b, At u) { return largest_of(b, [&](std::size_t k) { return b.gap(u, k); }); }},
+      {"slide_force_max_N",
+       [](const Batch& b, At u) { return largest_of(b, [&](std::size_t k) { return b.force(u, k); }); }}};
 };
 
 /// The quantities of a batch.
@@ -212,8 +203,7 @@ std::vector<const char*> part_quantities(const ElementBatch& elements) {
   return names;
 }
 
-double part_quantity(const ElementBatch& elements, std::size_t quantity,
-                     const Configuration& at) {
+double part_quantity(const ElementBatch& elements, std::size_t quantity, const Configuration& at) {
   return std::visit(
       [&](const auto& batch) {
         return QuantitiesOf<std::decay_t<decltype(batch)>>::whole[quantity].value(batch, at);

@@ -22,7 +22,6 @@ void fill_element_field(const ElementBatch& elements, std::size_t field, const C
 /// What a part has as a whole, by name with unit: "axial_force_max_N".
 std::vector<const char*> part_quantities(const ElementBatch& elements);
 /// @param quantity index into part_quantities()
-double part_quantity(const ElementBatch& elements, std::size_t quantity,
-                     const Configuration& at);
+double part_quantity(const ElementBatch& elements, std::size_t quantity, const Configuration& at);
 
 }  // namespace talus::fem

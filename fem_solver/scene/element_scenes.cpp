@@ -62,7 +62,8 @@ void describe(core::Fields& fields, SlidingCableScene& rope) {
                    .help = "coefficient of the capstan equation; none where absent",
                    .plausible = core::plausible::friction});
   fields.list("friction_at", rope.friction_at,
-              "nodes with a friction of their own, such as post heads and shackles; later entries count over earlier ones");
+              "nodes with a friction of their own, such as post heads and shackles; later entries count over "
+              "earlier ones");
 }
 
 void describe(core::Fields& fields, ElasticPlasticCableScene& rope) {

@@ -35,7 +35,7 @@ void describe(core::Fields& fields, FrictionAtScene& friction);
 /// One rope that runs through all its nodes.
 struct SlidingCableScene : AxialScene {
   std::optional<double> slider_size;  ///< m
-  std::optional<double> friction;     ///< mu of the capstan equation, at nodes that `friction_at` does not name
+  std::optional<double> friction;  ///< mu of the capstan equation, at nodes that `friction_at` does not name
   std::vector<FrictionAtScene> friction_at;
   bool has_friction() const { return friction || !friction_at.empty(); }
 };

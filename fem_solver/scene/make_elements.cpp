@@ -80,7 +80,8 @@ struct Maker {
       for (const Index node : select_nodes(model, at.where)) {
         const auto inner = std::ranges::find(elements.segments, node, [](const auto& s) { return s[1]; });
         if (inner == elements.segments.end() || inner + 1 == elements.segments.end())
-          throw core::ConfigError(fmt::format("friction_at: the rope does not run through {}", node_name(model, node)));
+          throw core::ConfigError(
+              fmt::format("friction_at: the rope does not run through {}", node_name(model, node)));
         friction[static_cast<std::size_t>(inner - elements.segments.begin())] =
             at.clamped ? std::numeric_limits<double>::infinity() : *at.coefficient;
       }

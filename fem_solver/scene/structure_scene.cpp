@@ -87,7 +87,8 @@ void describe(core::Fields& fields, StructureScene& structure) {
     return support.displacement && !support.displacement->isZero(0) && support.over_time.empty();
   });
   fields.rule(!jumps || std::holds_alternative<StaticScene>(structure.method), "supports",
-              "move by a `displacement` without `over_time`, which in a run through time would be a jump; write how it "
+              "move by a `displacement` without `over_time`, which in a run through time would be a jump; "
+              "write how it "
               "grows, such as `over_time: [[0 s, 0], [0.1 s, 1]]`");
   fields.section("mass_scaling", structure.mass_scaling,
                  "mass on light nodes, for a longer explicit step at the price of slower waves");

@@ -60,6 +60,24 @@ class Ropes(Inputs):
         self.assertEqual(result.summary["status"], "finished")
 
 
+class Newton(Inputs):
+    def test_forces_that_vanish_are_an_equilibrium(self):
+        result = run("newton/membrane_relax_x_6_0", "fem_solver")
+        self.assertEqual(result.done.returncode, 0, result.done.stderr)
+        self.assertTrue(any(abs(values[-1] + 0.18581489429548) < 1e-9 for values in result.columns.values()))
+        # the bar's end goes along x alone, to where it has the length L sqrt(1 - 2 S/E)
+        length, prestrain = math.hypot(1.3, 0.7), 3e9 / 210e9
+        x = math.sqrt(length**2 * (1 - 2 * prestrain) - 0.7**2)
+        for scene in ("released_bar_1", "released_bar_implicit_1"):
+            result = run(f"newton/{scene}", "fem_solver")
+            self.assertEqual(result.done.returncode, 0, result.done.stderr)
+            self.assertAlmostEqual(result.column("e.displacement_x_m")[-1], x - 1.3, places=10)
+
+    def test_a_string_swings_through_straight(self):
+        result = run("newton/slack_mass_fail", "fem_solver")
+        self.assertEqual(result.done.returncode, 0, result.done.stderr)
+
+
 class Energy(Inputs):
     def test_a_slider_at_rest_dissipates_nothing(self):
         for column, values in {name: run("slider_damping/constraint_damping_100_0.001", "fem_solver").energy(name)

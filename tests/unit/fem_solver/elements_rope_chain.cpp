@@ -80,7 +80,8 @@ void check_ropes(int ropes, std::uint64_t seed) {
                    : friction.settle(wire, state, rope.old_material, rope.material)));
     INFO("rope " << k << " of " << rope.material.size() << " segments");
     const double whole = rope.held(rope.old_material);
-    REQUIRE(std::abs(rope.held(rope.material) - whole) < 1e-14 * whole * std::sqrt(double(rope.material.size())));
+    REQUIRE(std::abs(rope.held(rope.material) - whole) <
+            1e-14 * whole * std::sqrt(double(rope.material.size())));
     // Tension is a difference of lengths: its round-off is 1e-16 of E A, that of sums of a hundred terms ten times
     // that, and limits multiply it by up to exp(pi) at each of several nodes: 1e-3 N of 10 MN.
     REQUIRE(rope.violation() < 1e-10 * rope.scale());

@@ -33,7 +33,8 @@ TEST_CASE("supports that lead a node to different places are refused, with the n
   model.supports[0].name = "anchors";
   model.supports[1].name = "jack";
   model.supports[1].displacement = Vector3(0, 0, 0.1);
-  CHECK_THROWS_WITH(held_directions(model), Contains("anchors and jack give node 0") && Contains("different motions along z"));
+  CHECK_THROWS_WITH(held_directions(model),
+                    Contains("anchors and jack give node 0") && Contains("different motions along z"));
   model.supports[0].displacement = model.supports[1].displacement;
   CHECK(held_directions(model).size() == 3);
   model.supports[0].history.points = {{0, 0}, {1, 1}};
