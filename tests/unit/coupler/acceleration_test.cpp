@@ -149,3 +149,20 @@ TEST_CASE("Aitken does not judge a step that it has not made") {
   acceleration.update(x, made());
   CHECK(acceleration.factor() == 0.25);  // as at a window's start
 }
+
+TEST_CASE("Aitken begins a window with what it has learned, but never with more than its first factor") {
+  const auto factor_after = [](double slope) {
+    Aitken acceleration(0.25);
+    std::vector<double> x{0};
+    const auto made = [&] { return std::vector<double>{slope * x[0] + 1.5}; };
+    acceleration.update(x, made());
+    acceleration.update(x, made());  // 1/(1 - slope) for one linear unknown
+    CHECK(acceleration.factor() == Approx(1 / (1 - slope)));
+    acceleration.begin_window();
+    acceleration.update(x, made());
+    return acceleration.factor();
+  };
+  CHECK(factor_after(0.5) == 0.25);         // it had learned 2
+  CHECK(factor_after(-9) == Approx(0.1));   // less is kept
+  CHECK(factor_after(5) == Approx(-0.25));  // and the direction, too
+}

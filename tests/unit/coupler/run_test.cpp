@@ -40,6 +40,21 @@ TEST_CASE("work is force times path, window by window") {
   CHECK(work_on_path(force, start, end) == expected);
 }
 
+TEST_CASE("the work of many nodes is the sum of force times path, loaded or not, in any place") {
+  // 67 values: two blocks of those that are looked at together and a rest; the first block bears nothing.
+  std::vector<double> force(67, 0.0), start(67), end(67);
+  double expected = 0;
+  for (std::size_t i = 0; i < force.size(); ++i) {
+    if (i >= 24 && i % 5 != 0) force[i] = 1.0 + static_cast<double>(i);
+    start[i] = static_cast<double>(i % 7);
+    end[i] = start[i] + 0.25 * static_cast<double>(i % 3);
+    expected += force[i] * (end[i] - start[i]);
+  }
+  const WorkMeter meter({ForceMeaning::mean, 0.1}, force, {start, start});
+  CHECK(meter.end(force, end) == Approx(expected).epsilon(1e-14));
+  CHECK(work_on_path(force, start, end) == Approx(expected).epsilon(1e-14));
+}
+
 TEST_CASE("the work of forces at a window's start is what the leapfrog's kinetic energy gains") {
   constexpr double mass = 2, step = 0.01;
   std::vector<double> position{0}, velocity{1}, force{0};

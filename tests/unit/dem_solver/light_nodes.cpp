@@ -61,3 +61,31 @@ TEST_CASE("a light node starts a window with the impulse that the structure has 
   CHECK(nodes.velocity(0).z == -3 / 2.0);
   CHECK(nodes.velocity(1).z == 0);
 }
+
+TEST_CASE("a light node gives way along the force that it bears, in every direction") {
+  Boundary boundary = one_wire();
+  LightNodes nodes(std::vector<double>{2, 4}, 0);
+  nodes.begin_window(std::vector<double>(6, 0));
+  boundary.react(boundary.features()[0], {0.5, 0.5, 0}, {-8, 16, 32});  // on the sphere; a half on each node
+  nodes.answer(boundary, 0.5);
+  CHECK(nodes.velocity(0).x == 0.5 * 4 / 2);
+  CHECK(nodes.velocity(0).y == 0.5 * -8 / 2);
+  CHECK(nodes.velocity(0).z == 0.5 * -16 / 2);
+  CHECK(nodes.velocity(1).x == 0.5 * 4 / 4);
+  CHECK(nodes.velocity(1).y == 0.5 * -8 / 4);
+}
+
+TEST_CASE(
+    "a boundary on a parabola has the speed of its chord halfway, and that of its ends' change beside it") {
+  const std::vector<double> u0{0, 0, 0}, u1{1, 2, 3}, v0{0, 0, 0}, v1{4, 6, 8};
+  const Boundary::Motion motion{.start_displacement = u0,
+                                .start_velocity = v0,
+                                .end_displacement = u1,
+                                .end_velocity = v1,
+                                .length = 0.5};
+  for (const double x : {0.0, 0.5, 1.0}) {
+    CHECK(motion.velocity(0, x).x == 1 / 0.5 + 4 * (x - 0.5));
+    CHECK(motion.velocity(0, x).y == 2 / 0.5 + 6 * (x - 0.5));
+    CHECK(motion.velocity(0, x).z == 3 / 0.5 + 8 * (x - 0.5));
+  }
+}
