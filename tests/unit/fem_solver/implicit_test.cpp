@@ -215,7 +215,8 @@ TEST_CASE("a constant interface force leads to its static answer whatever the sp
   CHECK(pushed.solver.displacement()[3] == Approx(1 / pushed.stiffness).epsilon(1e-4));
 }
 
-TEST_CASE("a sheet that wrinkles under shear gets no energy from nowhere, at any step and spectral radius") {
+TEST_CASE("a sheet that wrinkles under shear gets no energy from nowhere, at any step and spectral radius",
+          "[long]") {
   // Led by 1 mm in 20 ms: work of millijoules. At 50 us and radius 1 the trapezoidal rule alone makes kilojoules of them.
   const double radius = GENERATE(1.0, 0.9, 0.5, 0.0), step = GENERATE(200e-6, 50e-6, 20e-6);
   const Model model = sheared_panel();
