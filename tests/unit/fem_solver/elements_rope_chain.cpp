@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <limits>
 #include <numeric>
@@ -85,7 +86,7 @@ void check_ropes(int ropes, std::uint64_t seed) {
     // Tension is a difference of lengths: its round-off is 1e-16 of E A, that of sums of a hundred terms ten times
     // that, and limits multiply it by up to exp(pi) at each of several nodes: 1e-3 N of 10 MN.
     REQUIRE(rope.violation() < 1e-10 * rope.scale());
-    for (const double m : rope.material) REQUIRE(m > 0);
+    REQUIRE(std::ranges::all_of(rope.material, [](double m) { return m > 0; }));
     slipping += rope.material != rope.old_material;
     slack += rope.tension(0) == 0;
   }
