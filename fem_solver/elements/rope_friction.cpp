@@ -6,8 +6,7 @@
 namespace talus::fem {
 namespace {
 
-/// N(l/M), continued below slackness along its tangent: Newton's method then knows how far from tension a
-/// segment is.
+/// N(l/M), continued below slackness along its tangent, so that the system of the slips stays regular.
 struct Continued {
   double tension, slope;  // N, dN/dM
 };
@@ -57,14 +56,12 @@ bool RopeFriction::within_limits(const RopeState& state) const noexcept {
   return true;
 }
 
-/// The system for the changes of the slips: a stuck node's slip goes back to zero, the others reach the
-/// limit.
+/// The system for the changes of the slips: a stuck node's stays, the others keep to their limit.
 void RopeFriction::assemble(const RopeState& state) noexcept {
   for (std::size_t k = 0; k < slip_.size(); ++k) {
     if (motion_[k] == Motion::stuck) {
       lower_[k] = upper_[k] = 0;
       diagonal_[k] = 1;
-      right_[k] = -slip_[k];
       continue;
     }
     const bool forward = motion_[k] == Motion::forward;
@@ -74,7 +71,6 @@ void RopeFriction::assemble(const RopeState& state) noexcept {
     lower_[k] = -near_slope;
     diagonal_[k] = near_slope + far_slope;
     upper_[k] = -far_slope;
-    right_[k] = near_factor * tension_[k] - far_factor * tension_[k + 1];
   }
 }
 

@@ -36,9 +36,6 @@ class RopeFriction {
   bool settle(const RopeLaw& law, const RopeState& state, std::span<const double> old_material,
               std::span<double> material);
 
-  /// Slip of each inner node in the last settle(): towards the next segment positive, m.
-  std::span<const double> slips() const noexcept { return slip_; }
-
   /// Changes of the tensions in the last settled state along changes of lengths and grips (N).
   /// @pre `state` and `material` are those of the last settle()
   struct Changes {

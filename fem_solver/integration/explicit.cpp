@@ -10,6 +10,12 @@
 #include "fem_solver/integration/external_force.hpp"
 
 namespace talus::fem {
+namespace {
+
+struct NoTerm {};
+struct MassDampingTerm {};
+
+}  // namespace
 ExplicitSolver::ExplicitSolver(const Model& model, Assembly& assembly, double step)
     : model_(model), assembly_(assembly), longest_step_(step) {
   const std::size_t values = model.reference.size();
@@ -92,8 +98,7 @@ void ExplicitSolver::step(double time, double step) {
   arrive(time);
   assembly_.lap(StepStage::energy);
   if (!slides_.empty()) velocity_before_ = state_.velocity;
-  const double activity =
-      model_.damping.mass > 0 ? advance_nodes<MassDampingTerm>(step) : advance_nodes<NoTerm>(step);
+  const double activity = advance_free(step);
   assembly_.lap(StepStage::motion);
   if (!slides_.empty()) {
     hold_slides(time, step);
@@ -219,7 +224,9 @@ double ExplicitSolver::advance_nodes(double step) noexcept {
   return sum;
 }
 
-template double ExplicitSolver::advance_nodes<NoTerm>(double step) noexcept;
+double ExplicitSolver::advance_free(double step) noexcept {
+  return mass_.empty() ? advance_nodes<NoTerm>(step) : advance_nodes<MassDampingTerm>(step);
+}
 
 void ExplicitSolver::damp_sliding_nodes(double step) noexcept {
   if (mass_.empty()) return;

@@ -15,10 +15,6 @@
 
 namespace talus::fem {
 
-/// Whether a term is in the loop over nodes at all.
-struct NoTerm {};
-struct MassDampingTerm {};
-
 /// Whether a structure has moved since the start: before its first step nobody knows.
 enum class Rest : std::int64_t { to_be_seen, rests, moves };
 
@@ -127,6 +123,8 @@ class ExplicitSolver final : public Integrator {
   /// Sum of velocities squared, or what mass damping dissipates (J): finite as long as every velocity is.
   template <class MassDamping>
   double advance_nodes(double step) noexcept;
+  /// With the terms that the scene names.
+  double advance_free(double step) noexcept;
   /// What mass damping has taken where sliders were led: the velocities that count are those after it.
   void damp_sliding_nodes(double step) noexcept;
   /// Takes sliders back to their ropes after a free step.

@@ -53,7 +53,7 @@ EnergyBalance ExplicitSolver::balance() {
   impose_supports(0, longest_step_);
   if (!slides_.empty()) {  // their constraints' forces follow from a step that is not taken
     velocity_before_ = state_.velocity;
-    advance_nodes<NoTerm>(longest_step_);
+    advance_free(longest_step_);
     hold_slides(0, longest_step_);
     state_.displacement = start.displacement;
     state_.velocity = start.velocity;

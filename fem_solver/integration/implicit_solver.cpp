@@ -126,6 +126,7 @@ std::vector<double> ImplicitSolver::masses_of_directions() const {
 
 bool ImplicitSolver::take(const Step& step) {
   before_ = state_;
+  created_energy_ = false;
   energy_before_ = energy();
   predict(step);
   reports_.push_back(newton_.solve(system(step), options_.newton, state_.displacement));

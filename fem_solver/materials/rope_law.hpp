@@ -66,13 +66,6 @@ class RopeLaw {
     }
     return q0 + x;
   }
-  /// The same from a guess that is right for small strains and for large ones.
-  double stretch_at(double tension) const noexcept {
-    const double modulus = section_.area * section_.youngs_modulus;
-    return stretch_at(tension, slack_stretch_ > 0
-                                   ? slack_stretch_ + tension / (modulus * slack_stretch_ * slack_stretch_)
-                                   : std::cbrt(2 * tension / modulus));
-  }
   const AxialSection& section() const noexcept { return section_; }
 
  private:
