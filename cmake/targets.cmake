@@ -52,7 +52,7 @@ function(talus_test name)
   endif()
   # Sanitizers slow programs tenfold: cases that gather statistics or take 1e5 steps are left to the other builds.
   if(TALUS_SANITIZE)
-    set(chosen "~[long]")
+    set(chosen "~[long]~[.]")
   endif()
   add_test(NAME ${name} COMMAND ${name} --durations no ${chosen})
   # Threads that wait for others sleep soon: tests run side by side on few cores.

@@ -101,6 +101,7 @@ struct Declaration {
   std::vector<StepLimit> limits{};
   std::vector<Effect> effects{};
   core::OutputDescription outputs{};
+  std::vector<std::string> warnings{};  ///< that it has shown so far, for log.txt and the summary
 
   /// In a window of this length (s).
   std::int64_t steps_in(double window_length) const;

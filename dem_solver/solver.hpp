@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "core/output/source.hpp"
 #include "core/program/stage_clock.hpp"
 #include "dem_solver/boundary/boundary.hpp"
 #include "dem_solver/boundary/planes.hpp"
@@ -22,7 +23,8 @@ struct ParticleModel {
   std::vector<SphereInput> spheres;
   std::vector<RockInput> rocks;  ///< spheres with `rock` k belong to rocks[k]
   std::vector<mesh::Surface>
-      rock_surfaces;  ///< for pictures; empty ones where there is none; in principal axes
+      rock_surfaces;              ///< for pictures; empty ones where there is none; in principal axes
+  std::vector<core::Fact> facts;  ///< of rocks that were filled with spheres, for the summary
   std::vector<Plane> planes;
   Boundary boundary;
   PairTable pairs;

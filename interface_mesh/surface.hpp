@@ -28,6 +28,7 @@ struct Surface {
   std::vector<std::array<Index, 2>> segments{};
   std::vector<std::array<Index, 3>> triangles{};  ///< counter-clockwise seen from outside
   std::vector<SurfacePart> parts{};
+  std::vector<double> start{};  ///< m; displacement of each node at time 0, 3 a node; empty: none
 
   Index node_count() const { return static_cast<Index>(positions.size() / 3); }
   bool operator==(const Surface&) const = default;

@@ -44,6 +44,7 @@ OutputDescription joined(const std::vector<const OutputSource*>& sources) {
     all.probes.insert(all.probes.end(), one.probes.begin(), one.probes.end());
     all.ledger.insert(all.ledger.end(), one.ledger.begin(), one.ledger.end());
     all.groups.insert(all.groups.end(), one.groups.begin(), one.groups.end());
+    all.facts.insert(all.facts.end(), one.facts.begin(), one.facts.end());
   }
   std::set<std::string> names;
   for (const auto& group : all.groups)
@@ -150,11 +151,6 @@ struct ResultWriter::Content {
     }
   }
 
-  void warn(const std::string& warning) {
-    log_warning(warning);
-    extra["warnings"].push_back(warning);
-  }
-
   /// The row that stands in probe_row and, without its balance, in energy_row.
   void append_row(double time) {
     peaks.add(time, std::span(probe_row).subspan(1));
@@ -210,6 +206,8 @@ struct ResultWriter::Content {
     json["energy"]["largest_error_relative"] = balance.largest().error_relative;
     json["energy"]["impact_J"] = balance.scale();
     json["tables"] = tables.summary();
+    json["warnings"] = warnings_said();
+    for (const Fact& fact : description.facts) json["facts"][fact.name] = fact.value;
     add_columns(json);
     return json;
   }
@@ -263,7 +261,7 @@ void ResultWriter::write_row(double time) {
   c.append_row(time);
   c.tables.update(time);
   if (!c.first_time) c.first_time = time;
-  for (const std::string& warning : c.guard.look(time)) c.warn(warning);
+  for (const std::string& warning : c.guard.look(time)) log_warning(warning);
   if (Clock::now() - c.summary_written > summary_pause) c.write_summary(RunStatus::running, {});
 }
 

@@ -58,11 +58,18 @@ struct TableDescription {
   TableKind kind = TableKind::events;
 };
 
+/// A number that is known before time 0, for the summary.
+struct Fact {
+  std::string name;  ///< "particles.rocks.block.filling_deviation_m"
+  double value = 0;
+};
+
 struct OutputDescription {
   std::vector<ProbeDescription> probes;
   std::vector<LedgerDescription> ledger;
   std::vector<GroupDescription> groups;
   std::vector<TableDescription> tables = {};
+  std::vector<Fact> facts = {};
 };
 
 /// A solver as the writer of results sees it. Calls are made between steps, at equal times for all values.

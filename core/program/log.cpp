@@ -5,6 +5,7 @@
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <memory>
 #include <mutex>
 
@@ -43,9 +44,16 @@ class Log {
   void show_from(LogLevel level) { shown_->set_level(spdlog_level(level)); }
   void write(LogLevel level, const std::string& message) {
     const std::lock_guard lock(mutex_);
-    const spdlog::details::log_msg entry("talus", spdlog_level(level), message);
-    write(*shown_, entry);
-    if (!write(file_ ? static_cast<spdlog::sinks::sink&>(*file_) : *early_, entry)) file_.reset();
+    write(*shown_, {"talus", spdlog_level(level), message});
+    keep(level, message);
+  }
+  void note(LogLevel level, const std::string& message) {
+    const std::lock_guard lock(mutex_);
+    keep(level, message);
+  }
+  std::vector<std::string> warnings() {
+    const std::lock_guard lock(mutex_);
+    return warnings_;
   }
   void open(const std::filesystem::path& path) {
     const std::lock_guard lock(mutex_);
@@ -62,6 +70,13 @@ class Log {
   }
 
  private:
+  void keep(LogLevel level, const std::string& message) {
+    if (level == LogLevel::warning && warnings_.size() < kept_messages &&
+        std::ranges::find(warnings_, message) == warnings_.end())
+      warnings_.push_back(message);
+    const spdlog::details::log_msg entry("talus", spdlog_level(level), message);
+    if (!write(file_ ? static_cast<spdlog::sinks::sink&>(*file_) : *early_, entry)) file_.reset();
+  }
   /// False where it cannot be written: a full disk must not keep a message from the screen, nor a terminal
   /// that is gone end a run.
   static bool write(spdlog::sinks::sink& sink, const spdlog::details::log_msg& entry) noexcept {
@@ -79,6 +94,7 @@ class Log {
   std::unique_ptr<spdlog::sinks::ringbuffer_sink_mt> early_ =
       std::make_unique<spdlog::sinks::ringbuffer_sink_mt>(kept_messages);
   std::unique_ptr<spdlog::sinks::basic_file_sink_mt> file_;
+  std::vector<std::string> warnings_;
 };
 
 Log& the_log() {
@@ -96,6 +112,12 @@ void open_log_file(const std::filesystem::path& path) {
 }
 void log(LogLevel level, const std::string& message) {
   the_log().write(level, message);
+}
+void note_warning(const std::string& message) {
+  the_log().note(LogLevel::warning, message);
+}
+std::vector<std::string> warnings_said() {
+  return the_log().warnings();
 }
 
 }  // namespace talus::core

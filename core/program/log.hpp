@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 /// Messages of a program: to the standard error stream, and to log.txt once a result folder is there. Safe to
 /// call from several threads.
@@ -15,6 +16,10 @@ void show_log_from(LogLevel level);
 /// written; what cannot be written later is shown only
 void open_log_file(const std::filesystem::path& path);
 void log(LogLevel level, const std::string& message);
+/// A warning that another process has shown already: into log.txt and warnings_said().
+void note_warning(const std::string& message);
+/// The different warnings of this process so far, the first thousand in their order: for the summary.
+std::vector<std::string> warnings_said();
 
 inline void log_debug(const std::string& message) {
   log(LogLevel::debug, message);

@@ -24,7 +24,8 @@ constexpr int could_not_start = 127;  // as a shell says it
 /// Signals that the coupler handles or ignores and whose default a program may expect.
 constexpr std::array own_signals{SIGINT, SIGTERM, SIGUSR1, SIGUSR2, SIGPIPE, SIGXFSZ};
 
-[[noreturn]] void become(char* const* arguments) {
+/// @param log a file for all output; negative: none
+[[noreturn]] void become(char* const* arguments, int log) {
   setpgid(0, 0);
   // A child stopped by SIGSTOP would outlive a killed coupler for good; continued, its participant notices
   // the death and ends it.
@@ -33,6 +34,7 @@ constexpr std::array own_signals{SIGINT, SIGTERM, SIGUSR1, SIGUSR2, SIGPIPE, SIG
   const int nothing = open("/dev/null", O_RDONLY);
   if (nothing >= 0) dup2(nothing, STDIN_FILENO);
   if (nothing > STDIN_FILENO) close(nothing);
+  if (log >= 0) dup2(log, STDERR_FILENO);
   dup2(STDERR_FILENO, STDOUT_FILENO);
   // Idle threads of GCC's OpenMP would spin for milliseconds after each loop, on cores that the other
   // processes of the run need next. A user's own choice stands.
@@ -41,12 +43,22 @@ constexpr std::array own_signals{SIGINT, SIGTERM, SIGUSR1, SIGUSR2, SIGPIPE, SIG
   _exit(could_not_start);
 }
 
-pid_t start(const std::vector<std::string>& command) {
+/// -1 without a path. The file is closed in what the child becomes.
+int open_log(const std::filesystem::path& path) {
+  if (path.empty()) return -1;
+  const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+  if (file < 0) throw core::FileError(path, "written", errno);
+  return file;
+}
+
+pid_t start(const std::vector<std::string>& command, const std::filesystem::path& log) {
   std::vector<char*> arguments;
   for (const auto& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
+  const int file = open_log(log);
   const pid_t pid = fork();
-  if (pid == 0) become(arguments.data());
+  if (pid == 0) become(arguments.data(), file);
+  if (file >= 0) close(file);
   if (pid < 0) {
     throw core::TransportError({.peer = command.front(),
                                 .waited_for = "the program to start",
@@ -67,8 +79,8 @@ std::string ExitStatus::text() const {
   return fmt::format("ended with exit code {}", code);
 }
 
-Child::Child(const std::vector<std::string>& command)
-    : pid_(start(command)), handle_(transport::identify(pid_)) {}
+Child::Child(const std::vector<std::string>& command, const std::filesystem::path& log)
+    : pid_(start(command, log)), handle_(transport::identify(pid_)) {}
 
 Child::Child(Child&& other) noexcept
     : pid_(std::exchange(other.pid_, 0)), handle_(std::move(other.handle_)), status_(other.status_) {}

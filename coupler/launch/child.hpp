@@ -31,10 +31,11 @@ struct ExitStatus {
 /// may not read from the terminal).
 class Child {
  public:
-  /// Starts `command` (program and arguments); its standard output goes to our standard error, which leaves
-  /// ours to the results.
-  /// @throws TransportError if the system cannot start it
-  explicit Child(const std::vector<std::string>& command);
+  /// Starts `command` (program and arguments).
+  /// @param log takes all its output; empty: its standard output goes to our standard error, which leaves ours
+  /// to the results
+  /// @throws TransportError if the system cannot start it, FileError where `log` cannot be written
+  explicit Child(const std::vector<std::string>& command, const std::filesystem::path& log = {});
   ~Child();  ///< end()
   Child(Child&& other) noexcept;
   Child& operator=(Child&&) noexcept = delete;

@@ -117,6 +117,7 @@ json to_json(const core::OutputDescription& outputs) {
                            {"columns", table.columns},
                            {"capacity", table.capacity},
                            {"kind", static_cast<int>(table.kind)}});
+  for (const auto& fact : outputs.facts) j["facts"].push_back({{"name", fact.name}, {"value", fact.value}});
   return j;
 }
 
@@ -134,6 +135,8 @@ core::OutputDescription outputs_from(const json& j) {
                               .columns = table.at("columns"),
                               .capacity = table.at("capacity"),
                               .kind = static_cast<core::TableKind>(table.at("kind").get<int>())});
+  for (const auto& fact : j.value("facts", json::array()))
+    outputs.facts.push_back({.name = fact.at("name"), .value = fact.at("value")});
   return outputs;
 }
 
@@ -164,6 +167,7 @@ Bytes encode(const PublishedSurface& published) {
                {"segments", binary(surface.segments)},
                {"triangles", binary(surface.triangles)},
                {"parts", parts},
+               {"start", binary(surface.start)},
                {"node_masses", binary(published.node_masses)}});
 }
 
@@ -174,6 +178,7 @@ PublishedSurface decode_surface(ByteView bytes, const std::string& sender) {
     published.surface.positions = values_of<double>(j.at("positions"));
     published.surface.segments = values_of<std::array<mesh::Index, 2>>(j.at("segments"));
     published.surface.triangles = values_of<std::array<mesh::Index, 3>>(j.at("triangles"));
+    if (j.contains("start")) published.surface.start = values_of<double>(j.at("start"));
     for (const auto& part : j.at("parts")) published.surface.parts.push_back(part_from(part));
     published.node_masses = values_of<double>(j.at("node_masses"));
     validate(published);
@@ -207,7 +212,8 @@ Bytes encode(const Declaration& declaration) {
                {"force_use", static_cast<int>(declaration.force_use)},
                {"limits", limits},
                {"effects", effects},
-               {"outputs", to_json(declaration.outputs)}});
+               {"outputs", to_json(declaration.outputs)},
+               {"warnings", declaration.warnings}});
 }
 
 Declaration decode_declaration(ByteView bytes, const std::string& sender) {
@@ -222,7 +228,8 @@ Declaration decode_declaration(ByteView bytes, const std::string& sender) {
                             .force_use = static_cast<ForceUse>(j.at("force_use").get<std::uint32_t>()),
                             .limits = {},
                             .effects = {},
-                            .outputs = outputs_from(j.at("outputs"))};
+                            .outputs = outputs_from(j.at("outputs")),
+                            .warnings = j.value("warnings", std::vector<std::string>{})};
     for (const auto& limit : j.at("limits")) {
       declaration.limits.push_back({.name = limit.at("name"),
                                     .seconds = limit.at("seconds"),
@@ -255,27 +262,44 @@ Bytes encode_failure(const std::exception& error) {
   return cbor(j);
 }
 
-void throw_failure(ByteView bytes, const FailureContext& context) {
-  const json j = decoded("a failure", context.peer, [&] { return parse(bytes); });
-  if (j.contains("complaints")) {
-    std::vector<core::Complaint> complaints;
-    for (const auto& c : j["complaints"]) {
-      complaints.push_back({c.at("file"), c.at("line"), c.at("column"), c.at("key_path"), c.at("message")});
-    }
-    throw core::ConfigError(std::move(complaints));
-  }
-  if (j.contains("numerical")) {
-    const json& d = j["numerical"];
-    throw core::NumericalError({d.at("what"), d.at("entity"), d.at("step"), d.at("time"),
-                                values_of<double>(d.at("value")).at(0), d.at("last_output_time")});
-  }
+namespace {
+
+std::vector<core::Complaint> complaints_from(const json& j) {
+  std::vector<core::Complaint> complaints;
+  for (const auto& c : j)
+    complaints.push_back({c.at("file"), c.at("line"), c.at("column"), c.at("key_path"), c.at("message")});
+  return complaints;
+}
+
+core::NumericalError::Details details_from(const json& d) {
+  return {d.at("what"),
+          d.at("entity"),
+          d.at("step"),
+          d.at("time"),
+          values_of<double>(d.at("value")).at(0),
+          d.at("last_output_time")};
+}
+
+/// The participant's error, made again.
+std::exception_ptr failure_from(const json& j, const FailureContext& context) {
+  const std::string message = j.value("message", std::string("no reason given"));
+  if (j.contains("complaints"))
+    return std::make_exception_ptr(core::ConfigError(complaints_from(j["complaints"])));
+  if (j.contains("numerical"))
+    return std::make_exception_ptr(core::NumericalError(details_from(j["numerical"])));
   if (j.contains("machine"))
-    throw core::MachineError(context.peer + ": " + j.value("message", std::string("no reason given")));
-  throw core::TransportError(
-      {.peer = context.peer,
-       .waited_for = context.waited_for,
-       .window = context.window,
-       .reason = "gave up (" + j.value("message", std::string("no reason given")) + ")"});
+    return std::make_exception_ptr(core::MachineError(context.peer + ": " + message));
+  return std::make_exception_ptr(core::TransportError({.peer = context.peer,
+                                                       .waited_for = context.waited_for,
+                                                       .window = context.window,
+                                                       .reason = "gave up (" + message + ")"}));
+}
+
+}  // namespace
+
+void throw_failure(ByteView bytes, const FailureContext& context) {
+  std::rethrow_exception(
+      decoded("a failure", context.peer, [&] { return failure_from(parse(bytes), context); }));
 }
 
 }  // namespace talus::coupler

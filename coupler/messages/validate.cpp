@@ -111,6 +111,8 @@ void validate_outputs(const core::OutputDescription& outputs) {
     require_new(groups, group.name);
   }
   for (const auto& table : outputs.tables) validate_table(table);
+  for (const auto& fact : outputs.facts)
+    require(std::isfinite(fact.value), "the fact '{}' is {}", fact.name, fact.value);
 }
 
 }  // namespace
@@ -120,6 +122,10 @@ void validate(const PublishedSurface& published) {
   require(surface.positions.size() % 3 == 0 && surface.positions.size() / 3 < (std::size_t{1} << 30),
           "the surface has {} coordinates; three a node are expected", surface.positions.size());
   require_finite(surface.positions, "position");
+  require(surface.start.empty() || surface.start.size() == surface.positions.size(),
+          "the surface has {} values of its displacement at time 0 for {} coordinates", surface.start.size(),
+          surface.positions.size());
+  require_finite(surface.start, "displacement at time 0");
   const mesh::Index nodes = surface.node_count();
   require_cells(surface.segments, nodes, "segment");
   require_cells(surface.triangles, nodes, "triangle");

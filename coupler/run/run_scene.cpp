@@ -221,6 +221,8 @@ core::ExitCode run_prepared(PreparedRun& run, const RunRequest& request) {
   core::ResultWriter results(result_options(run, request, plan), parts.sources);
   core::open_log_file(results.folder() / "log.txt");
   for (const auto& warning : warnings_of(run.limits)) core::log_warning(warning);
+  for (Peer* peer : run.session->peers())
+    for (const auto& warning : peer->declaration().warnings) core::note_warning(warning);
   if (const auto words = core::words_about_length("window", run.scene.time.end, run.scene.named_window());
       !words.empty())
     core::log_warning(words);

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "core/program/log.hpp"
 #include "core/units/units.hpp"
 
 namespace talus::coupler {
@@ -65,7 +66,6 @@ std::string words_about_windows(const json& summary) {
 void add_facts(json& summary, const PreparedRun& run) {
   summary["window_s"] = run.window_length();
   summary["limited_by"] = tightest_name(run.limits);
-  summary["warnings"] = warnings_of(run.limits);
   summary["limits"] = summary["effects"] = json::array();
   for (const auto& limit : run.limits) summary["limits"].push_back(to_json(limit));
   for (Peer* peer : run.session->peers()) {
@@ -97,8 +97,7 @@ void add_iterations(json& summary, const IterationTally& tally, double window_le
       {"windows_halved", tally.halved},
       {"shortest_window_s", std::ldexp(window_length, -static_cast<int>(tally.most_halvings))}};
   if (tally.not_converged == 0) return;
-  summary["warnings"].push_back(
-      fmt::format("{} of {} windows did not converge", tally.not_converged, tally.windows));
+  core::log_warning(fmt::format("{} of {} windows did not converge", tally.not_converged, tally.windows));
 }
 
 void add_flight(json& summary, const FlightTally& tally, double window_length) {

@@ -59,6 +59,11 @@ void hear_request(Session& session, Peer& particles) {
 Interface make_interface(const InterfacePlan& plan, PublishedSurface published) {
   mesh::Surface boundary = plan.make_boundary(published.surface);
   mesh::TiedSurfaces tie = plan.tie(boundary, published.surface);
+  boundary.start.clear();
+  if (!published.surface.start.empty()) {
+    boundary.start.resize(boundary.positions.size());
+    tie.mapping.to_boundary(published.surface.start, boundary.start);
+  }
   std::vector<double> boundary_masses = tie.mapping.boundary_masses(published.node_masses);
   return {.structure = std::move(published.surface),
           .boundary = std::move(boundary),

@@ -2,6 +2,7 @@
 
 #include "core/errors.hpp"
 #include "core/program/command_line.hpp"
+#include "core/program/log.hpp"
 #include "dem_solver/app/particle_run.hpp"
 #include "dem_solver/app/window_steps.hpp"
 #include "dem_solver/output/checkpoint.hpp"
@@ -37,6 +38,7 @@ coupler::Declaration declaration_of(const RunScene& scene, const ParticleRun& ru
   declaration.light_boundary = has_interface;
   declaration.checkpoints = true;
   declaration.outputs = run.output.description();
+  declaration.warnings = core::warnings_said();
   for (const ParticleStepLimit& limit : run.limits)
     declaration.limits.push_back({limit.name, limit.seconds, limit.stability, limit.reason});
   for (const ParticleEffect& effect : effects_of(scene.particles, {has_interface, scene.output.has_value()}))

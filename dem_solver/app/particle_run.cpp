@@ -51,12 +51,24 @@ std::optional<double> own_step(const RunScene& scene) {
 
 namespace {
 
+/// As it is at time 0.
+mesh::Surface displaced(mesh::Surface surface) {
+  for (std::size_t i = 0; i < surface.start.size(); ++i) surface.positions[i] += surface.start[i];
+  return surface;
+}
+
 ParticleModel model_of(const RunScene& scene, const mesh::Surface& surface) {
   const int threads = std::max(static_cast<int>(scene.particles.threads), core::thread_count());
   ParticleModel model = build_model(
       scene.particles, surface,
       {.step = own_step(scene).value_or(0), .ledger = scene.output.has_value(), .threads = threads});
-  check_start(scene.particles, model, surface);
+  if (surface.start.empty()) {
+    check_start(scene.particles, model, surface);
+    return model;
+  }
+  const std::vector<double> rest(surface.start.size(), 0.0);
+  model.boundary.move({.start_displacement = surface.start, .start_velocity = rest}, {});
+  check_start(scene.particles, model, displaced(surface));
   return model;
 }
 
@@ -65,8 +77,8 @@ std::unique_ptr<core::StageClock> clock_of(const RunScene& scene) {
   return std::make_unique<core::StageClock>(make_stage_clock());
 }
 
-NamedBodies named_bodies(const ParticlesScene& particles) {
-  NamedBodies named;
+NamedBodies named_bodies(const ParticlesScene& particles, const ParticleModel& model) {
+  NamedBodies named{.spheres = {}, .rocks = {}, .facts = model.facts};
   for (const auto& [name, sphere] : particles.spheres)
     named.spheres.emplace_back(name, static_cast<Index>(named.spheres.size()));
   for (const auto& [name, rock] : particles.rocks)
@@ -84,7 +96,7 @@ ParticleRun::ParticleRun(const RunScene& scene, const ParticleModel& model,
                          std::span<const double> node_masses)
     : solver(model),
       clock(clock_of(scene)),
-      output(solver, named_bodies(scene.particles), model.rock_surfaces, clock.get()),
+      output(solver, named_bodies(scene.particles, model), model.rock_surfaces, clock.get()),
       limits(step_limits(model, {.materials = materials_of(scene.particles), .node_masses = node_masses})) {
   if (clock) solver.measure_stages(*clock);
 }

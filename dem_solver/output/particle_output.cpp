@@ -22,6 +22,7 @@ ParticleOutput::ParticleOutput(const ParticleSolver& solver, NamedBodies named,
   describe_rocks();
   if (!solver_.boundary().empty()) describe_boundary();
   description_.tables = gates_.descriptions();
+  description_.facts = named_.facts;
 }
 
 void ParticleOutput::describe_probes() {

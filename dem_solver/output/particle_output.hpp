@@ -13,6 +13,7 @@ namespace talus::dem {
 /// What gets columns in probes.csv, with its number in the solver.
 struct NamedBodies {
   std::vector<std::pair<std::string, Index>> spheres, rocks;
+  std::vector<core::Fact> facts = {};  ///< of their shapes
 };
 
 /// What a run of particles writes: the trajectory of each named sphere and rock, the ledger, the tables

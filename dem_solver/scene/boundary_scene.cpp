@@ -101,7 +101,12 @@ void append(mesh::Surface& to, const mesh::Surface& more) {
   const mesh::Index node = to.node_count();
   const auto segment = static_cast<mesh::Index>(to.segments.size()),
              triangle = static_cast<mesh::Index>(to.triangles.size());
+  if (!more.start.empty()) {
+    to.start.resize(to.positions.size(), 0.0);
+    to.start.insert(to.start.end(), more.start.begin(), more.start.end());
+  }
   to.positions.insert(to.positions.end(), more.positions.begin(), more.positions.end());
+  if (!to.start.empty()) to.start.resize(to.positions.size(), 0.0);
   for (const auto& [a, b] : more.segments) to.segments.push_back({a + node, b + node});
   for (const auto& [a, b, c] : more.triangles) to.triangles.push_back({a + node, b + node, c + node});
   for (mesh::SurfacePart part : more.parts) {

@@ -76,6 +76,12 @@ double density_of(const ParticlesScene& particles, const std::string& material) 
   return particles.materials[material_index(particles, material)].second.density.value();
 }
 
+void add_facts_of_filling(const std::string& name, const BuiltRock& rock, std::vector<core::Fact>& facts) {
+  const std::string place = "particles.rocks." + name;
+  facts.push_back({place + ".spheres", static_cast<double>(rock.spheres.size())});
+  facts.push_back({place + ".filling_deviation_m", rock.deviation});
+}
+
 /// Named spheres first, then rocks, then streams: the order of ids.
 void add_bodies(const ParticlesScene& particles, ParticleModel& model) {
   for (const auto& [name, sphere] : particles.spheres) model.spheres.push_back(sphere_of(particles, sphere));
@@ -86,6 +92,7 @@ void add_bodies(const ParticlesScene& particles, ParticleModel& model) {
       sphere.rock = static_cast<Index>(model.rocks.size());
       model.spheres.push_back(sphere);
     }
+    if (!built.surface.positions.empty()) add_facts_of_filling(name, built, model.facts);
     model.rocks.push_back(built.rock);
     model.rock_surfaces.push_back(std::move(built.surface));
   }

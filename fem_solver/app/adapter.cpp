@@ -8,6 +8,7 @@
 #include <limits>
 #include <variant>
 
+#include "core/program/log.hpp"
 #include "core/steps.hpp"
 #include "coupler/scene/interface_scene.hpp"
 #include "fem_solver/app/structure.hpp"
@@ -64,17 +65,9 @@ void add_cells(const Part& part, const std::vector<Index>& number, mesh::Surface
   run.triangle_end = static_cast<mesh::Index>(surface.triangles.size());
 }
 
-/// Nodes whose motion is prescribed in every direction, by one support or by several together: no force moves
-/// them.
-std::vector<bool> held_nodes(const Model& model) {
-  std::vector<int> directions(static_cast<std::size_t>(model.nodes()), 0);
-  for (const HeldDirection& h : held_directions(model)) ++directions[h.direction / 3];
-  std::vector<bool> held;
-  for (const int count : directions) held.push_back(count == 3);
-  return held;
-}
-
-PublishedSurface published_surface(const Model& model, const std::vector<std::string>& parts) {
+/// @param start m; displacement at time 0, 3 a node of the model; empty: none
+PublishedSurface published_surface(const Model& model, const std::vector<std::string>& parts,
+                                   std::span<const double> start) {
   PublishedSurface published;
   std::vector<Index> number(static_cast<std::size_t>(model.nodes()), -1);
   const std::vector<bool> held = held_nodes(model);
@@ -90,6 +83,9 @@ PublishedSurface published_surface(const Model& model, const std::vector<std::st
                                      : model.node_masses[static_cast<std::size_t>(node)]);
       const Vector3 x = model.position(node);
       published.surface.positions.insert(published.surface.positions.end(), x.begin(), x.end());
+      if (start.empty()) continue;
+      const auto u = start.subspan(3 * static_cast<std::size_t>(node), 3);
+      published.surface.start.insert(published.surface.start.end(), u.begin(), u.end());
     }
     add_cells(part, number, published.surface);
   }
@@ -106,7 +102,8 @@ coupler::Declaration declaration(Structure& structure, const StructuralScene& sc
       .force_use = structure.is_implicit() ? coupler::ForceUse::load : coupler::ForceUse::kicks,
       .limits = {},
       .effects = {},
-      .outputs = structure.output().description()};
+      .outputs = structure.output().description(),
+      .warnings = core::warnings_said()};
   for (const StepBound& bound : structure.bounds())
     declared.limits.push_back({bound.name, bound.seconds, true, bound.reason});
   for (const auto& effect : structure.effects(scene.structure))
@@ -191,7 +188,10 @@ void serve_structure(const core::SceneFile& file, coupler::Participant& particip
   const StructuralScene scene = read_structural_scene(file);
   refuse_static(file, scene);
   Structure structure(scene);
-  const PublishedSurface published = published_surface(structure.model(), interface_parts(file));
+  const std::span<const double> start = scene.structure.start
+                                            ? std::span<const double>(structure.start().displacement)
+                                            : std::span<const double>();
+  const PublishedSurface published = published_surface(structure.model(), interface_parts(file), start);
   structure.make_interface(published.nodes);
   participant.publish_surface(published.surface, published.masses);
   participant.declare(declaration(structure, scene));

@@ -6,8 +6,10 @@
 
 #include "core/program/log.hpp"
 #include "core/units/units.hpp"
+#include "fem_solver/integration/equilibrium.hpp"
 #include "fem_solver/integration/explicit.hpp"
 #include "fem_solver/integration/implicit_solver.hpp"
+#include "fem_solver/integration/relaxation.hpp"
 #include "fem_solver/integration/static_solver.hpp"
 #include "fem_solver/scene/build_model.hpp"
 
@@ -30,9 +32,18 @@ std::string description(const AddedMass& added) {
                      100 * added.share, added.nodes);
 }
 
-std::vector<StepBound> bounds_of(const StructureScene& scene, Assembly& assembly) {
+State start_of(const StructureScene& scene, Assembly& assembly) {
+  if (!scene.start) return initial_state(assembly.model());
+  if (const auto* newton = std::get_if<EquilibriumScene>(&scene.start->from))
+    return equilibrium(assembly.model(), assembly,
+                       {.steps = newton->steps, .newton = {.tolerance = newton->tolerance}});
+  const auto& falls = std::get<RelaxationScene>(scene.start->from);
+  return relax(assembly.model(), assembly, {.most_steps = falls.steps, .tolerance = falls.tolerance});
+}
+
+std::vector<StepBound> bounds_of(const StructureScene& scene, Assembly& assembly, const State& start) {
   if (!is_explicit(scene.method)) return {};
-  return step_bounds(assembly, std::vector<double>(assembly.model().reference.size(), 0.0));
+  return step_bounds(assembly, start.displacement);
 }
 
 double chosen_step(const StructuralScene& scene, const std::vector<StepBound>& bounds) {
@@ -74,6 +85,7 @@ void add_effects_of_part(std::vector<StructuralEffect>& effects, const std::stri
 struct MakeIntegrator {
   const Model& model;
   Assembly& assembly;
+  const State& start;
   struct Times {
     double step = 0, end = 0;  ///< s
     bool watched = true;       ///< an explicit run ends where its step becomes unstable
@@ -82,7 +94,7 @@ struct MakeIntegrator {
   using Made = std::unique_ptr<Integrator>;
   Made operator()(std::monostate) const { return (*this)(ExplicitScene{}); }
   Made operator()(const ExplicitScene&) const {
-    auto solver = std::make_unique<ExplicitSolver>(model, assembly, times.step);
+    auto solver = std::make_unique<ExplicitSolver>(model, assembly, times.step, start);
     if (times.watched) solver->watch_step();
     return solver;
   }
@@ -90,7 +102,8 @@ struct MakeIntegrator {
     return std::make_unique<ImplicitSolver>(model, assembly,
                                             ImplicitOptions{.step = times.step,
                                                             .spectral_radius = scene.spectral_radius,
-                                                            .newton = {.tolerance = scene.tolerance}});
+                                                            .newton = {.tolerance = scene.tolerance}},
+                                            start);
   }
   Made operator()(const StaticScene& scene) const {
     return std::make_unique<StaticSolver>(
@@ -123,15 +136,16 @@ Structure::Structure(const StructuralScene& scene)
       added_mass_(scene.structure.mass_scaling ? scale_masses(model_, scene.structure.mass_scaling->step)
                                                : AddedMass{}),
       assembly_(model_),
-      bounds_(bounds_of(scene.structure, assembly_)),
+      start_(start_of(scene.structure, assembly_)),
+      bounds_(bounds_of(scene.structure, assembly_, start_)),
       step_(chosen_step(scene, bounds_)),
       implicit_(std::holds_alternative<ImplicitScene>(scene.structure.method)),
       output_scene_(scene.output) {
   check_step(scene.structure);
   if (scene.structure.mass_scaling) core::log_warning(description(added_mass_));
-  integrator_ =
-      std::visit(MakeIntegrator{model_, assembly_, {step_, scene.time.end, is_watched(scene.structure)}},
-                 scene.structure.method);
+  integrator_ = std::visit(
+      MakeIntegrator{model_, assembly_, start_, {step_, scene.time.end, is_watched(scene.structure)}},
+      scene.structure.method);
   if (!scene.output.stage_times) return;
   clock_ = std::make_unique<core::StageClock>("structure", stages_of(model_));
   assembly_.measure_stages(*clock_);
@@ -153,6 +167,7 @@ std::vector<StructuralEffect> Structure::effects(const StructureScene& scene) co
   add("point masses", "point_masses", !scene.point_masses.empty());
   add("welded parts", "weld", scene.weld.has_value());
   add("nodes that slide along ropes", "slides", !scene.slides.empty());
+  add("start at rest under loads", "start", scene.start.has_value());
   add("mass scaling", "mass_scaling", scene.mass_scaling.has_value());
   if (scene.mass_scaling) effects.back().reason += "; " + description(added_mass_);
   return effects;

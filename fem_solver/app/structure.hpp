@@ -45,6 +45,7 @@ class Structure {
   explicit Structure(const StructuralScene& scene);
 
   const Model& model() const { return model_; }
+  const State& start() const { return start_; }  ///< where time 0 finds it
   Integrator& integrator() { return *integrator_; }
   /// Parts whose nodes receive forces from outside, in the order their nodes are published.
   void make_interface(const std::vector<Index>& nodes);
@@ -68,6 +69,7 @@ class Structure {
   Model model_;
   AddedMass added_mass_;  ///< by mass scaling
   Assembly assembly_;
+  State start_;  ///< at time 0
   std::vector<StepBound> bounds_;
   double step_ = 0;
   bool implicit_ = false;

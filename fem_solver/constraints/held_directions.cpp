@@ -39,4 +39,12 @@ std::vector<HeldDirection> held_directions(const Model& model) {
   return held;
 }
 
+std::vector<bool> held_nodes(const Model& model) {
+  std::vector<int> directions(static_cast<std::size_t>(model.nodes()), 0);
+  for (const HeldDirection& h : held_directions(model)) ++directions[h.direction / 3];
+  std::vector<bool> held;
+  for (const int count : directions) held.push_back(count == 3);
+  return held;
+}
+
 }  // namespace talus::fem

@@ -21,4 +21,7 @@ struct HeldDirection {
 /// @throws core::ConfigError naming node and direction where two supports ask for different motions
 std::vector<HeldDirection> held_directions(const Model& model);
 
+/// Of each node, whether supports hold it in all three directions, one alone or several together: no force moves it.
+std::vector<bool> held_nodes(const Model& model);
+
 }  // namespace talus::fem

@@ -104,6 +104,8 @@ class FrictionalCable {
     }
   }
 
+  double gap() const noexcept { return properties_.gap; }  ///< m
+
  private:
   double length(const Vector3& chord) const noexcept { return RopeSegment(chord, properties_.gap).length; }
 

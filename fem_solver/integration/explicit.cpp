@@ -16,10 +16,11 @@ struct NoTerm {};
 struct MassDampingTerm {};
 
 }  // namespace
-ExplicitSolver::ExplicitSolver(const Model& model, Assembly& assembly, double step)
+
+ExplicitSolver::ExplicitSolver(const Model& model, Assembly& assembly, double step, const State& start)
     : model_(model), assembly_(assembly), longest_step_(step) {
   const std::size_t values = model.reference.size();
-  static_cast<State&>(state_) = initial_state(model);
+  static_cast<State&>(state_) = start;
   state_.force.assign(values, 0);
   state_.reactions.assign(reaction_count(model), 0);
   for (const double m : model.node_masses) inverse_mass_.insert(inverse_mass_.end(), 3, m > 0 ? 1 / m : 0);

@@ -62,7 +62,9 @@ class ExplicitSolver final : public Integrator {
  public:
   /// @pre every node has mass or is fully supported; model and assembly outlive the solver
   /// @param step the longest one advance() takes (s)
-  ExplicitSolver(const Model& model, Assembly& assembly, double step);
+  ExplicitSolver(const Model& model, Assembly& assembly, double step)
+      : ExplicitSolver(model, assembly, step, initial_state(model)) {}
+  ExplicitSolver(const Model& model, Assembly& assembly, double step, const State& start);
 
   void advance(double time, double length) override;
   void prepare() override;

@@ -22,7 +22,8 @@ constexpr std::int64_t steps_of_overshoot = 3;
 
 }  // namespace
 
-ImplicitSolver::ImplicitSolver(const Model& model, Assembly& assembly, const ImplicitOptions& options)
+ImplicitSolver::ImplicitSolver(const Model& model, Assembly& assembly, const ImplicitOptions& options,
+                               const State& start)
     : model_(model), assembly_(assembly), options_(options), held_(held_directions(model)), newton_(model) {
   const double r = options.spectral_radius;
   alpha_m_ = (2 * r - 1) / (r + 1);
@@ -30,7 +31,7 @@ ImplicitSolver::ImplicitSolver(const Model& model, Assembly& assembly, const Imp
   gamma_ = 0.5 - alpha_m_ + alpha_f_;
   beta_ = 0.25 * (1 - alpha_m_ + alpha_f_) * (1 - alpha_m_ + alpha_f_);
   const std::vector<double> zero(model.reference.size(), 0.0);
-  static_cast<State&>(state_) = initial_state(model);
+  static_cast<State&>(state_) = start;
   state_.acceleration = state_.force = state_.interface_force = zero;
   state_.reactions.assign(reaction_count(model), 0.0);
   mean_ = product_ = zero;

@@ -64,7 +64,9 @@ struct ImplicitState : State {
 class ImplicitSolver final : public Integrator {
  public:
   /// @pre model and assembly outlive the solver
-  ImplicitSolver(const Model& model, Assembly& assembly, const ImplicitOptions& options);
+  ImplicitSolver(const Model& model, Assembly& assembly, const ImplicitOptions& options)
+      : ImplicitSolver(model, assembly, options, initial_state(model)) {}
+  ImplicitSolver(const Model& model, Assembly& assembly, const ImplicitOptions& options, const State& start);
 
   void advance(double time, double length) override;
   const ImplicitState& state() const override { return state_; }

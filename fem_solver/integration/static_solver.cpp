@@ -14,10 +14,6 @@ namespace {
 
 constexpr std::size_t most_nodes_named = 4;
 
-LoadTime load_time(double time, double end) {
-  return {.time = time, .ramp = time / end};
-}
-
 }  // namespace
 
 StaticSolver::StaticSolver(const Model& model, Assembly& assembly, const StaticOptions& options)
@@ -26,6 +22,10 @@ StaticSolver::StaticSolver(const Model& model, Assembly& assembly, const StaticO
   std::ranges::fill(state_.velocity, 0.0);
   state_.reactions.assign(reaction_count(model), 0);
   external_.assign(model.reference.size(), 0);
+}
+
+LoadTime StaticSolver::load_time(double time) const {
+  return {.time = options_.tables_at.value_or(time), .ramp = time / options_.end};
 }
 
 void StaticSolver::advance(double time, double length) {
@@ -38,7 +38,7 @@ void StaticSolver::advance(double time, double length) {
     const double next = now + share > end - 0.5 * smallest ? end : now + share;
     const StaticState before = state_;
     if (equilibrate(next)) {
-      account(before, {load_time(now, options_.end), load_time(next, options_.end)});
+      account(before, {load_time(now), load_time(next)});
       now = next;
       continue;
     }
@@ -60,7 +60,7 @@ void StaticSolver::archive(core::StateArchive& archive) {
 void StaticSolver::start(double time) {
   std::vector<double> sum(model_.reference.size());
   std::ranges::fill(external_, 0.0);
-  add_external_force(model_, interface_, load_time(time, options_.end), external_);
+  add_external_force(model_, interface_, load_time(time), external_);
   residual(state_.displacement, sum);
   note_reactions(sum);
 }
@@ -71,7 +71,7 @@ void StaticSolver::note_reactions(std::span<const double> sum) {
 
 bool StaticSolver::equilibrate(double time) {
   ++steps_;
-  const LoadTime when = load_time(time, options_.end);
+  const LoadTime when = load_time(time);
   place_supports(held_, when, state_.displacement);
   std::ranges::fill(external_, 0.0);
   add_external_force(model_, interface_, when, external_);

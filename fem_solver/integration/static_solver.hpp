@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -15,6 +16,7 @@ struct StaticOptions {
   double end = 1;   ///< s; where gravity and loads without a table have grown to their full size
   double step = 1;  ///< s; of the load, halved where Newton fails
   NewtonOptions newton{};
+  std::optional<double> tables_at = {};  ///< s; where tables are read; absent: at the time of the run
 };
 
 /// A moment of a static run, at equilibrium; its velocity stays zero.
@@ -52,6 +54,7 @@ class StaticSolver final : public Integrator {
   const std::vector<NewtonReport>& reports() const { return reports_; }
 
  private:
+  LoadTime load_time(double time) const;
   void start(double time);
   void note_reactions(std::span<const double> sum);
   bool equilibrate(double time);

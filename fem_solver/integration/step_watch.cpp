@@ -5,7 +5,7 @@
 
 #include "core/errors.hpp"
 #include "core/units/units.hpp"
-#include "fem_solver/integration/row_sums.hpp"
+#include "fem_solver/integration/frequency_bound.hpp"
 #include "fem_solver/integration/step_limit.hpp"
 
 namespace talus::fem {
@@ -26,8 +26,7 @@ void StepWatch::look(const Moment& moment) {
         {.what = "the step of " + core::readable(moment.step, "s") +
                  " is above the limit of stability, which fell to " + core::readable(limit, "s") +
                  " as the structure stiffened; take a smaller step",
-         .entity = "stiffest for its mass is " + node_name(model, static_cast<Index>(bound.direction / 3)) +
-                   "; limit (s)",
+         .entity = "stiffest for its mass is " + node_name(model, bound.node) + "; limit (s)",
          .step = moment.steps,
          .time = moment.time,
          .value = limit,

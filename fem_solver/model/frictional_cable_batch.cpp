@@ -78,6 +78,18 @@ void FrictionalCableBatch::stiffness_product(const Configuration& at, std::span<
       [&](std::size_t i, const Vector3& force) { Vector3::Map(&slots[3 * i]) = force; });
 }
 
+/// With the material held, as in stiffness_product().
+void FrictionalCableBatch::add_stiffness_bound(const Configuration& at,
+                                               std::span<double> node_sums) const noexcept {
+  const auto chords = line_.chords(at.displacement);
+  for (std::size_t i = 0; i < segments(); ++i) {
+    const double held = material(at)[i], q = cable_.stretch(chords(i), held);
+    const RopeSegment segment(chords(i), cable_.gap());
+    add_pair_bound(line_.cells()[i], law_.taut_slope(q) / held + law_.tension(q) * segment.inverse_radius,
+                   node_sums);
+  }
+}
+
 double FrictionalCableBatch::energy(const Configuration& at) const noexcept {
   return cable_.energy(line_.chords(at.displacement), material(at));
 }

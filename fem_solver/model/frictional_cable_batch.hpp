@@ -52,6 +52,7 @@ class FrictionalCableBatch {
                         core::Block elements) const noexcept {
     stiffness_product(at, direction, slots, elements);
   }
+  void add_stiffness_bound(const Configuration& at, std::span<double> node_sums) const noexcept;
   double energy(const Configuration& at) const noexcept;
   void add_mass(std::span<double> node_masses) const noexcept { add_rope_mass(line_, part_, node_masses); }
   /// With the slip that follows; not symmetric.

@@ -53,6 +53,7 @@ class MembraneBatch {
   /// With the moduli of the taut sheet, which those of a wrinkled or slack one never exceed.
   void stiffest_product(const Configuration& at, std::span<const double> direction, std::span<double> slots,
                         core::Block elements) const noexcept;
+  void add_stiffness_bound(const Configuration& at, std::span<double> node_sums) const noexcept;
   double energy(const Configuration& at) const noexcept;
   void add_mass(std::span<double> node_masses) const noexcept;
 

@@ -27,6 +27,8 @@ namespace talus::fem {
 ///   stiffness_product(at, w, slots, range) (d2U/du2) w
 ///   stiffness(at, sink)                    d2U/du2 as 3x3 blocks
 ///   energy(at)                             U (J), zero at the reference state
+///   add_stiffness_bound(at, node_sums)     norms of the 3x3 blocks of each node's row of d2U/du2, summed, with
+///                                          everything taut that may become taut (N/m)
 ///   add_mass(node_masses)                  lumped (kg)
 /// What elements remember besides: Remembers in configuration.hpp.
 using ElementBatch = std::variant<BarBatch, CableBatch, SlidingCableBatch, PlainMembraneBatch,
@@ -134,6 +136,10 @@ std::vector<double> elastic_by_parts(const Model& model, const Configuration& at
 std::vector<double> dissipated_by_parts(const Model& model, const Configuration& at);
 /// Whether a part can dissipate.
 bool dissipates(const ElementBatch& elements);
+
+/// One a node (N/m): no motion with masses m has a higher frequency than the largest sqrt(sum/m) (Gershgorin's
+/// theorem, by blocks), whatever of the structure is taut.
+std::vector<double> stiffness_bounds(const Model& model, const Configuration& at);
 
 /// Sums node_masses from the elements. Point masses are added by whoever knows them.
 void lump_masses(Model& model);

@@ -48,6 +48,17 @@ void PathBatch<Law>::stiffest_product(const Configuration& at, std::span<const d
 }
 
 template <class Law>
+void PathBatch<Law>::add_stiffness_bound(const Configuration& at,
+                                         std::span<double> node_sums) const noexcept {
+  for (Index e = 0; e < size(); ++e) {
+    const double length = chord(at.displacement, e).norm(), force = axial_force(at, e);
+    const double along = description_.law.stiffest_slope({length, lengths_[place(e)]}, force);
+    add_pair_bound(segments_[place(e)], length > 0 ? std::max(along, std::abs(force) / length) : along,
+                   node_sums);
+  }
+}
+
+template <class Law>
 double PathBatch<Law>::energy(const Configuration& at) const noexcept {
   double sum = 0;
   for (Index e = 0; e < size(); ++e) sum += segment(e).stored(chord(at.displacement, e), kept(at, e));

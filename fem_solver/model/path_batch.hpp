@@ -44,6 +44,7 @@ class PathBatch {
   /// At the law's initial stiffness, to which it may unload in any step.
   void stiffest_product(const Configuration& at, std::span<const double> direction, std::span<double> slots,
                         core::Block elements) const noexcept;
+  void add_stiffness_bound(const Configuration& at, std::span<double> node_sums) const noexcept;
   double energy(const Configuration& at) const noexcept;
   void add_mass(std::span<double> node_masses) const noexcept;
   template <class Sink>

@@ -40,6 +40,7 @@ class PenaltySlideBatch {
   /// pull; without the geometric part, a share gap/segment of the rest.
   void stiffest_product(const Configuration& at, std::span<const double> direction, std::span<double> slots,
                         core::Block elements) const noexcept;
+  void add_stiffness_bound(const Configuration& at, std::span<double> node_sums) const noexcept;
   double energy(const Configuration& at) const noexcept;
   void add_mass(std::span<double>) const noexcept {}
   /// Distance of slider k from the rope (m).

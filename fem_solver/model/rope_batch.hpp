@@ -96,6 +96,7 @@ class SlidingCableBatch {
   /// As if the rope were taut.
   void stiffest_product(const Configuration& at, std::span<const double> direction, std::span<double> slots,
                         core::Block) const noexcept;
+  void add_stiffness_bound(const Configuration& at, std::span<double> node_sums) const;
   double energy(const Configuration& at) const noexcept {
     return cable_.energy(line_.chords(at.displacement));
   }

@@ -1,5 +1,7 @@
 #include "fem_solver/model/two_node_batch.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace talus::fem {
@@ -40,6 +42,18 @@ void TwoNodeBatch<Compression>::stiffest_product(const Configuration& at, std::s
   for (auto e = static_cast<Index>(elements.begin); e < elements.end; ++e)
     Vector3::Map(&slots[3 * place(e)]) =
         element(e).stiffest_product(difference(at.displacement, e), difference(direction, e));
+}
+
+template <class Compression>
+void TwoNodeBatch<Compression>::add_stiffness_bound(const Configuration& at,
+                                                    std::span<double> node_sums) const noexcept {
+  for (Index e = 0; e < size(); ++e) {
+    const AxialElement<Compression> bar = element(e);
+    const double strain = bar.strain(difference(at.displacement, e)), inverse = bar.inverse_length;
+    const double along = bar.section.youngs_modulus * std::max(0.0, 1 + 2 * strain),
+                 across = std::abs(Compression::stress(bar.trial_stress(strain)));
+    add_pair_bound(segments_[place(e)], bar.section.area * inverse * (along + across), node_sums);
+  }
 }
 
 template <class Compression>

@@ -43,6 +43,7 @@ class TwoNodeBatch {
                          core::Block elements) const noexcept;
   void stiffest_product(const Configuration& at, std::span<const double> direction, std::span<double> slots,
                         core::Block elements) const noexcept;
+  void add_stiffness_bound(const Configuration& at, std::span<double> node_sums) const noexcept;
   double energy(const Configuration& at) const noexcept;
   void add_mass(std::span<double> node_masses) const noexcept;
 

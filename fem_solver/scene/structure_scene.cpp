@@ -57,6 +57,42 @@ void describe(core::Fields& fields, StaticScene& method) {
       {.range = {.low = 1e-14, .high = 1e-2}, .help = "largest residual force over the largest force"});
 }
 
+void describe(core::Fields& fields, EquilibriumScene& equilibrium) {
+  fields.with_default(
+      "steps", equilibrium.steps,
+      {.range = {.low = 1, .high = 1e6}, .help = "in which weight, loads and moved supports come on"});
+  fields.with_default(
+      "tolerance", equilibrium.tolerance,
+      {.range = {.low = 1e-14, .high = 1e-2}, .help = "largest residual force over the largest force"});
+}
+
+void describe(core::Fields& fields, RelaxationScene& relaxation) {
+  fields.with_default("steps", relaxation.steps,
+                      {.range = {.low = 1, .high = 1e9}, .help = "that it may take at most"});
+  fields.with_default(
+      "tolerance", relaxation.tolerance,
+      {.range = {.low = 1e-14, .high = 1e-2}, .help = "largest force left over the largest force"});
+}
+
+void describe(core::Fields& fields, StartScene& start) {
+  fields.one_of(start.from,
+                {{"equilibrium",
+                  "at rest under weight, prestress, and loads as they are at time 0, by Newton's iteration"},
+                 {"relaxation",
+                  "the same by letting the structure fall into place: also where parts hang slack or have no "
+                  "stiffness"}});
+}
+
+namespace {
+
+bool constrained_slides(const StructureScene& structure) {
+  return std::ranges::any_of(structure.slides, [](const NamedSlide& slide) {
+    return std::holds_alternative<ConstraintSlideScene>(slide.second.method);
+  });
+}
+
+}  // namespace
+
 void describe(core::Fields& fields, StructureScene& structure) {
   fields.optional("solver", structure.solver,
                   {.help = "another program that plays the structure's part, e.g. my_solver.py"});
@@ -73,13 +109,19 @@ void describe(core::Fields& fields, StructureScene& structure) {
       "gravity", structure.gravity,
       {.unit = "m/s^2", .help = "acceleration of free fall", .plausible = core::plausible::gravity});
   fields.section("damping", structure.damping, "Rayleigh damping of all parts");
+  fields.section("start", structure.start,
+                 "where the structure is at time 0; as its shapes are written where absent");
+  fields.rule(!structure.start || !constrained_slides(structure) ||
+                  std::holds_alternative<EquilibriumScene>(structure.start->from),
+              "start",
+              "by `relaxation` knows no `slides` with `constraint`: take `equilibrium`, or `penalty`");
   fields.one_of(structure.method,
                 {{"explicit", "central differences; what a scene gets that names no method"},
                  {"implicit", "generalised-alpha method with Newton's iteration"},
                  {"static", "equilibrium; what has no `over_time` grows linearly up to time.end"}});
-  const bool constrained = std::ranges::any_of(structure.slides, [](const NamedSlide& slide) {
-    return std::holds_alternative<ConstraintSlideScene>(slide.second.method);
-  });
+  fields.rule(!structure.start || !std::holds_alternative<StaticScene>(structure.method), "start",
+              "is for runs through time; `static` itself finds the equilibrium");
+  const bool constrained = constrained_slides(structure);
   const auto* implicit = std::get_if<ImplicitScene>(&structure.method);
   fields.rule(!constrained || !implicit || implicit->spectral_radius < 1, "implicit.spectral_radius",
               "has to be below 1 where `slides` hold by constraints: at 1 their forces ring without end");

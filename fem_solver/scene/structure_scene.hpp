@@ -58,6 +58,26 @@ struct StaticScene {
 };
 void describe(core::Fields& fields, StaticScene& method);
 
+/// At rest under its own loads.
+struct EquilibriumScene {
+  std::int64_t steps = 10;
+  double tolerance = 1e-10;
+};
+void describe(core::Fields& fields, EquilibriumScene& equilibrium);
+
+/// The same, found by letting the structure fall into place.
+struct RelaxationScene {
+  std::int64_t steps = 200000;
+  double tolerance = 1e-6;
+};
+void describe(core::Fields& fields, RelaxationScene& relaxation);
+
+/// Where the structure is at time 0; absent: as its shapes are written.
+struct StartScene {
+  std::variant<EquilibriumScene, RelaxationScene> from;
+};
+void describe(core::Fields& fields, StartScene& start);
+
 using MethodScene = std::variant<std::monostate, ExplicitScene, ImplicitScene, StaticScene>;
 /// Also where the scene names no method.
 inline bool is_explicit(const MethodScene& method) {
@@ -76,6 +96,7 @@ struct StructureScene {
   std::vector<LoadScene> loads;
   std::vector<PointMassScene> point_masses;
   std::vector<InitialVelocityScene> initial_velocities;
+  std::optional<StartScene> start;
   MethodScene method;
   std::optional<MassScalingScene> mass_scaling;
   std::optional<double> step;  ///< s

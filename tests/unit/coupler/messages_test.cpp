@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <nlohmann/json.hpp>
 
 #include "core/errors.hpp"
 #include "coupler/messages/output_arrays.hpp"
@@ -47,7 +48,13 @@ TEST_CASE("a declaration arrives as it was sent") {
        .fields = {{.name = "force", .unit = "N", .components = 1, .location = core::FieldLocation::cell}}}};
   sent.outputs.tables = {
       {.name = "gate", .columns = {"time_s", "stone"}, .capacity = 7, .kind = core::TableKind::distribution}};
+  sent.outputs.facts = {{.name = "rock.spheres", .value = 16}};
+  sent.warnings = {"steel of 1770 mPa"};
   const Declaration got = decode_declaration(encode(sent));
+  REQUIRE(got.outputs.facts.size() == 1);
+  CHECK(got.outputs.facts[0].name == "rock.spheres");
+  CHECK(got.outputs.facts[0].value == 16);
+  CHECK(got.warnings == sent.warnings);
   CHECK(got.program == sent.program);
   CHECK(got.step == sent.step);
   CHECK(got.insists_on_step);
@@ -98,6 +105,16 @@ TEST_CASE("errors of a participant are the same errors in the coupler") {
                     "structure (x, pid 1): 'state.part' cannot be written: No space left on device");
   CHECK_THROWS_WITH(throw_failure(encode_failure(std::runtime_error("no licence")), context),
                     Contains("structure (x, pid 1) gave up (no licence)") && Contains("window 4"));
+}
+
+TEST_CASE("a failure that does not say what it should is its sender's fault") {
+  using nlohmann::json;
+  const FailureContext context{.peer = "particles", .waited_for = "an answer"};
+  for (const json& failure : {json{{"numerical", {{"what", "x"}}}}, json{{"numerical", 3}},
+                              json{{"complaints", {{{"file", 1}}}}}, json{{"message", 5}}, json(7)}) {
+    const std::vector<std::uint8_t> bytes = json::to_cbor(failure);
+    CHECK_THROWS_AS(throw_failure(std::as_bytes(std::span(bytes)), context), core::TransportError);
+  }
 }
 
 TEST_CASE("output values of a participant stand side by side and do not overlap") {

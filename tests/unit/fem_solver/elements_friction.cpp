@@ -128,10 +128,35 @@ TEST_CASE("a rope sticks while its tensions stay within the capstan limit") {
   CHECK(rope.tensions(x).back() / rope.tensions(x).front() == Approx(1.1).epsilon(0.01));
 }
 
-TEST_CASE("settled tensions obey the capstan limit at every node whatever the rope has been through") {
-  Dice dice(41);
+namespace {
+
+/// What of a settled rope breaks a law: the first thing, or nothing.
+std::string broken_law(const TestRope& rope, const Eigen::VectorXd& x, double mu,
+                       const std::vector<double>& before, int& slipping) {
+  constexpr double round_off = 1e-12;  // of E A: tension is a difference of lengths
+  const double held = total(before);
+  if (!(std::abs(total(rope.material) - held) < 1e-13 * held)) return "material is lost";
+  const std::vector<double> N = rope.tensions(x);
+  const StackedChords chords = chords_of(x);
+  double passed = 0;
+  for (std::size_t k = 0; k + 1 < N.size(); ++k) {
+    const double a = std::exp(mu * std::acos(chords(k).normalized().dot(chords(k + 1).normalized())));
+    const double forwards = N[k + 1] - a * N[k], backwards = N[k] - a * N[k + 1];
+    if (!(std::max(forwards, backwards) <= round_off * stiff_scale)) return "a tension is above the limit";
+    passed += before[k] - rope.material[k];
+    if (passed > no_slip * held && !(std::abs(forwards) < round_off * stiff_scale))
+      return "it slips below the limit";
+    if (passed < -no_slip * held && !(std::abs(backwards) < round_off * stiff_scale))
+      return "it slips below the limit";
+    slipping += std::abs(passed) > no_slip * held;
+  }
+  return "";
+}
+
+void check_settled_ropes(int ropes, unsigned seed) {
+  Dice dice(seed);
   int slipping = 0, slack = 0;
-  for (int trial = 0; trial < 20000; ++trial) {
+  for (int trial = 0; trial < ropes; ++trial) {
     const double mu = dice.decades(1e-3, 1);
     Eigen::VectorXd x = winding_rope(dice, 3 + trial % 12);
     TestRope rope(mu, x, dice.uniform(0.95, 1.02));
@@ -142,25 +167,23 @@ TEST_CASE("settled tensions obey the capstan limit at every node whatever the ro
     for (double& m : rope.material) m *= factor;
     const std::vector<double> before = rope.material;
     const double loss = rope.commit(x);
-    REQUIRE(loss >= -1e-13 * stiff_scale);
-    REQUIRE(std::abs(total(rope.material) - held) < 1e-13 * held);
-    const std::vector<double> N = rope.tensions(x);
-    double passed = 0;
-    for (std::size_t k = 0; k + 1 < N.size(); ++k) {
-      const StackedChords chords = chords_of(x);
-      const double a = std::exp(mu * std::acos(chords(k).normalized().dot(chords(k + 1).normalized())));
-      constexpr double round_off = 1e-12;  // of E A: tension is a difference of lengths
-      REQUIRE(N[k + 1] <= a * N[k] + round_off * stiff_scale);
-      REQUIRE(N[k] <= a * N[k + 1] + round_off * stiff_scale);
-      passed += before[k] - rope.material[k];
-      if (passed > no_slip * held) REQUIRE(std::abs(N[k + 1] - a * N[k]) < round_off * stiff_scale);
-      if (passed < -no_slip * held) REQUIRE(std::abs(N[k] - a * N[k + 1]) < round_off * stiff_scale);
-      slipping += std::abs(passed) > no_slip * held;
-    }
-    slack += N.front() == 0;
+    const std::string broken =
+        loss >= -1e-13 * stiff_scale ? broken_law(rope, x, mu, before, slipping) : "it gains";
+    if (!broken.empty()) FAIL("rope " << trial << ": " << broken);
+    slack += rope.tensions(x).front() == 0;
   }
-  CHECK(slipping > 50000);
-  CHECK(slack > 1000);
+  CHECK(slipping > 5 * ropes / 2);
+  CHECK(slack > ropes / 20);
+}
+
+}  // namespace
+
+TEST_CASE("settled tensions obey the capstan limit at every node whatever the rope has been through") {
+  check_settled_ropes(500, 41);
+}
+
+TEST_CASE("settled tensions of 20 000 ropes more obey the capstan limit at every node", "[long]") {
+  check_settled_ropes(20000, 42);
 }
 
 TEST_CASE("slip does not depend on the direction the nodes are numbered in") {

@@ -9,8 +9,8 @@
 
 #include "core/errors.hpp"
 #include "fem_solver/integration/explicit.hpp"
+#include "fem_solver/integration/frequency_bound.hpp"
 #include "fem_solver/integration/mass_scaling.hpp"
-#include "fem_solver/integration/row_sums.hpp"
 #include "tests/support/structures.hpp"
 
 namespace {
@@ -63,7 +63,8 @@ TEST_CASE("a slider held by a spring limits the step as it does where it passes 
   CHECK(frequency_at_rest(model) == Approx(expected).epsilon(1e-6));
 }
 
-TEST_CASE("row sums bound the highest frequency of a net at random states and give that of a chain") {
+TEST_CASE(
+    "bounds of stiffness bound the highest frequency of a net at random states and give that of a chain") {
   const double chain = frequency_at_rest(tests::chain<BarBatch>(bar, 2, 16));
   CHECK(frequency_bound(tests::chain<BarBatch>(bar, 2, 16), std::vector<double>(51, 0.0)).squared ==
         Approx(chain * chain).epsilon(1e-6));

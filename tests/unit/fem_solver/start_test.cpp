@@ -1,0 +1,165 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "tests/unit/fem_solver/structural_scenes.hpp"
+
+namespace {
+
+using namespace talus::fem;
+namespace tests = talus::fem::tests;
+
+constexpr double g = 9.81;
+const std::string newton = "  start: {equilibrium: {}}\n",
+                  falling = "  start: {relaxation: {tolerance: 1e-9}}\n";
+const std::string by_leapfrog = "  explicit: {}\n  step: 20 us\n",
+                  by_newmark = "  implicit: {}\n  step: 1 ms\n";
+
+/// A structure under its weight, and the ways to its equilibrium that lead there.
+struct Kind {
+  const char* name;
+  std::string structure;
+  std::vector<std::string> starts = {newton, falling};
+};
+
+const std::string steel = "area: 10 mm^2, density: 7850 kg/m^3, youngs_modulus: 10 GPa";
+const std::string hung = "  gravity: [0, 0, -9.81]\n  weld: {tolerance: 1 mm}\n";
+
+std::vector<Kind> kinds() {
+  const std::string
+      rope = "polyline: {points: [[-1 m, 0 m, 2 m], [0 m, 0 m, 0 m], [2 m, 0 m, 2 m]]}",
+      weight = "  point_masses:\n    - {at: [0 m, 0 m, 0 m], mass: 100 kg}\n",
+      ends = "  supports:\n    - {nodes: rope.start, fix: xyz}\n    - {nodes: rope.end, fix: xyz}\n";
+  const std::string sheet =
+      "  parts:\n    sheet:\n      sheet: {corner: [0 m, 0 m, 0 m], size: [2 m, 2 m], element_size: 0.5 m}\n"
+      "      membrane: {thickness: 1 mm, density: 1500 kg/m^3, isotropic: {youngs_modulus: 10 MPa, "
+      "poissons_ratio: "
+      "0.3}";
+  const std::string edges =
+      "  supports:\n    - {nodes: sheet.edge_north, fix: xyz}\n    - {nodes: sheet.edge_south, "
+      "fix: xyz}\n";
+  const std::string curtain =
+      "  parts:\n    net:\n      square_net: {corner: [0 m, 0 m, 0 m], size: [1.2 m, 0.8 m], across: [0, 0, "
+      "1], pitch: "
+      "0.2 m, rim: open}\n      cable: {" +
+      steel +
+      "}\n    upper:\n      polyline: {points: [[0 m, 0 m, 0.8 m], [1.2 m, 0 m, 0.8 m]], divisions: 7}\n     "
+      " cable: "
+      "{" +
+      steel +
+      ", prestress: 50 MPa}\n  supports:\n    - {nodes: upper.start, fix: xyz}\n    - {nodes: upper.end, "
+      "fix: xyz}\n";
+  return {
+      {"a taut net",
+       "  parts:\n    net:\n      square_net: {corner: [0 m, 0 m, 0 m], size: [2 m, 2 m], pitch: 0.5 m}\n    "
+       "  cable: {" +
+           steel + ", prestress: 1 MPa}\n  supports:\n    - {nodes: net.rim, fix: xyz}\n"},
+      {"a slack net",
+       "  parts:\n    net:\n      square_net: {corner: [0 m, 0 m, 0 m], size: [2 m, 2 m], pitch: 0.5 m}\n    "
+       "  cable: {" +
+           steel + "}\n  supports:\n    - {nodes: net.corners, fix: xyz}\n"},
+      {"a rope that runs freely",
+       "  parts:\n    rope:\n      " + rope + "\n      sliding_cable: {" + steel + "}\n" + weight + ends,
+       {falling}},
+      {"a rope with friction",
+       "  parts:\n    rope:\n      " + rope + "\n      sliding_cable: {" + steel + ", friction: 0.1}\n" +
+           weight + ends,
+       {falling}},
+      {"a rope that yields", "  parts:\n    rope:\n      " + rope + "\n      elastic_plastic_cable: {" +
+                                 steel + ", yield_stress: 60 MPa, hardening: 1 GPa}\n" + weight + ends},
+      {"a brake that runs", "  parts:\n    rope:\n      " + rope +
+                                "\n      brake: {table: [[5 mm, 300 N], [0.4 m, 2 kN]], mass_per_length: 1 "
+                                "kg/m}\n" +
+                                weight + ends},
+      {"a sheet", sheet + "}\n" + edges, {falling}},
+      {"a sheet that wrinkles", sheet + ", tension_field: {}}\n" + edges, {falling}},
+      {"sliders on springs",
+       curtain +
+           "  slides:\n    edge: {rope: upper, nodes: net.edge_north, penalty: {stiffness: 100 kN/m}}\n",
+       {"  start: {relaxation: {}}\n"}},  // sliders go from one segment of the rope to the next and back
+  };
+}
+
+double most(const std::vector<double>& values) {
+  double largest = 0;
+  for (const double value : values) largest = std::max(largest, std::abs(value));
+  return largest;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "a structure that starts at rest under its weight stays there, whatever it is and however it moves") {
+  for (const Kind& kind : kinds())
+    for (const std::string& start : kind.starts)
+      for (const std::string& method : {by_leapfrog, by_newmark}) {
+        CAPTURE(kind.name, start, method);
+        Structure built(tests::scene(kind.structure + hung + start + method));
+        const std::vector<double> at_first = built.start().displacement;
+        REQUIRE(most(at_first) > 1e-4);  // the weight has moved it
+        const double step = built.step(), end = 0.02;
+        for (double time = 0; time < end - 0.5 * step; time += step) built.integrator().advance(time, step);
+        std::vector<double> moved(at_first.size());
+        for (std::size_t i = 0; i < moved.size(); ++i)
+          moved[i] = built.integrator().displacement()[i] - at_first[i];
+        CHECK(most(moved) < 1e-2 * 0.5 * g * end * end);
+      }
+}
+
+TEST_CASE("each element of a chain that starts at rest bears what hangs below it") {
+  // Elements of 0.0785 kg, half at each node: element e of four from the top has 4 - e - 1/2 of them below.
+  const std::string chain =
+      "  gravity: [0, 0, -9.81]\n  parts:\n    chain:\n      polyline: {points: [[0 m, 0 m, 4 m], [0 m, 0 m, "
+      "0 m]], "
+      "divisions: 4}\n      cable: {" +
+      steel + "}\n  supports:\n    - {nodes: chain.start, fix: xyz}\n";
+  for (const std::string& start : {newton, falling}) {
+    CAPTURE(start);
+    const Structure built(tests::scene(chain + start));
+    const auto& cable = std::get<CableBatch>(built.model().parts[0].elements);
+    for (Index e = 0; e < 4; ++e)
+      CHECK(cable.axial_force(built.start().displacement, e) == Approx(0.0785 * g * (3.5 - e)).epsilon(1e-6));
+  }
+}
+
+TEST_CASE("a load and a moved support are at the start what their tables say of time 0") {
+  const std::string bar =
+      "  parts:\n    bar:\n      polyline: {points: [[0 m, 0 m, 0 m], [1 m, 0 m, 0 m]]}\n      bar: {" +
+      steel +
+      "}\n  supports:\n    - {nodes: bar.start, fix: xyz, displacement: [0.1 m, 0 m, 0 m], over_time: [[0 s, "
+      "0.5], [1 s, 1]]}\n"
+      "    - {nodes: bar.end, fix: yz}\n  loads:\n    - {nodes: bar.end, force: [2 N, 0 N, 0 N], over_time: "
+      "[[0 s, 0.25], [1 s, 1]]}\n";
+  for (const std::string& start : {newton, falling}) {
+    CAPTURE(start);
+    const Structure built(tests::scene(bar + start));
+    CHECK(built.start().displacement[0] == Approx(0.05).epsilon(1e-12));
+    // 0.5 N on E A = 1e5 N: strains of 5e-6, so the change of shape does not count.
+    CHECK(built.start().displacement[3] - 0.05 == Approx(0.5 / 1e5).epsilon(2e-5));
+  }
+}
+
+TEST_CASE("what cannot come to rest is an error that names a node") {
+  const std::string loose =
+      "  gravity: [0, 0, -9.81]\n  parts:\n    rope:\n      polyline: {points: [[0 m, 0 m, 0 m], [1 m, 0 m, "
+      "0 m]]}\n      "
+      "cable: {" +
+      steel + "}\n";
+  for (const std::string& start : {newton, std::string("  start: {relaxation: {steps: 500}}\n")}) {
+    CAPTURE(start);
+    CHECK_THROWS_WITH(Structure(tests::scene(loose + start)), Catch::Contains("of rope at"));
+  }
+}
+
+TEST_CASE("a start at rest is refused where it has no meaning, or no way") {
+  const std::string rope =
+      "  parts:\n    rope:\n      polyline: {points: [[0 m, 0 m, 0 m], [1 m, 0 m, 0 m]], divisions: 4}\n     "
+      " cable: {" +
+      steel +
+      "}\n    other:\n      polyline: {points: [[0 m, 0 m, 0 m], [1 m, 0 m, 0 m]], divisions: 3}\n      "
+      "cable: {" +
+      steel + "}\n";
+  CHECK_THAT(tests::complaint(rope + newton + "  static: {}\n"), Catch::Contains("finds the equilibrium"));
+  CHECK_THAT(
+      tests::complaint(rope + falling + "  slides:\n    edge: {rope: rope, nodes: other, constraint: {}}\n"),
+      Catch::Contains("knows no `slides` with `constraint`"));
+}
