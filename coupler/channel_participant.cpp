@@ -51,8 +51,9 @@ void check_own(const Message& message, const char* call) {
 
 const char* name_of(ArrayName name) {
   static constexpr std::array<const char*, array_count> names{
-      "force",         "displacement",       "velocity",       "end_displacement", "end_velocity",
-      "free_velocity", "moved_displacement", "moved_velocity", "outputs"};
+      "force",        "displacement",  "velocity",           "end_displacement",
+      "end_velocity", "free_velocity", "moved_displacement", "moved_velocity",
+      "lost",         "outputs"};
   return names[static_cast<std::size_t>(name)];
 }
 
@@ -186,6 +187,7 @@ void ChannelParticipant::publish_surface(const mesh::Surface& surface, std::span
   send(channel_, Side::participant, MessageKind::surface, encode(published),
        [this](double seconds) { look_around(seconds); });
   surface_nodes_ = node_masses.size();
+  surface_cells_ = surface.cell_count();
   stage_ = Stage::surface_known;
 }
 
@@ -198,6 +200,7 @@ mesh::Surface ChannelParticipant::receive_surface(std::vector<double>& node_mass
   PublishedSurface published = decode_surface(receive(channel_, Side::participant, look).bytes);
   node_masses = std::move(published.node_masses);
   surface_nodes_ = node_masses.size();
+  surface_cells_ = published.surface.cell_count();
   stage_ = Stage::surface_known;
   return std::move(published.surface);
 }
@@ -245,9 +248,10 @@ void ChannelParticipant::refuse_no_numbers() {
   if (command_.action != Action::advance && command_.action != Action::read_checkpoint) return;
   const bool is_structure = options_.role == Role::structure;
   using enum ArrayName;
-  static constexpr std::array of_structure{displacement, velocity, free_velocity};
+  static constexpr std::array of_structure{displacement, velocity, free_velocity, lost};
   static constexpr std::array of_particles{force, moved_displacement, moved_velocity};
-  for (const ArrayName name : is_structure ? of_structure : of_particles) {
+  for (const ArrayName name :
+       is_structure ? std::span<const ArrayName>(of_structure) : std::span<const ArrayName>(of_particles)) {
     const auto values = array(name);
     if (all_finite(values)) continue;
     const core::NumericalError error(
@@ -258,6 +262,8 @@ void ChannelParticipant::refuse_no_numbers() {
 }
 
 void ChannelParticipant::fail(const std::exception& error) noexcept {
+  // A second time, as where an error that this has told already reaches main(): the coupler may be reading the first.
+  if (load(channel_.state) == static_cast<std::uint32_t>(ChannelState::failed)) return;
   try {
     Bytes bytes = encode_failure(error);
     if (bytes.size() > channel_.failure.size())
@@ -319,7 +325,9 @@ void ChannelParticipant::map_arrays() {
     const bool may_be_absent = name != ArrayName::force && name != ArrayName::displacement &&
                                name != ArrayName::velocity && name != ArrayName::outputs;
     const ArraySlot& slot = channel_.arrays[i];
-    const std::uint64_t expected = name == ArrayName::outputs ? output_arrays_.size() : values;
+    const std::uint64_t expected = name == ArrayName::outputs ? output_arrays_.size()
+                                   : name == ArrayName::lost  ? surface_cells_
+                                                              : values;
     arrays_[i] = checked_array(data, slot, may_be_absent && slot.count == 0 ? 0 : expected);
   }
   one_set_ = have_one_set(control_);
@@ -335,7 +343,8 @@ StructureFields ChannelParticipant::structure_fields() {
   return {.force = array(ArrayName::force),
           .displacement = array(ArrayName::displacement),
           .velocity = array(ArrayName::velocity),
-          .free_velocity = array(ArrayName::free_velocity)};
+          .free_velocity = array(ArrayName::free_velocity),
+          .lost = array(ArrayName::lost)};
 }
 
 ParticleFields ChannelParticipant::particle_fields() {
@@ -347,6 +356,7 @@ ParticleFields ChannelParticipant::particle_fields() {
           .free_velocity = array(ArrayName::free_velocity),
           .moved_displacement = array(ArrayName::moved_displacement),
           .moved_velocity = array(ArrayName::moved_velocity),
+          .lost = array(ArrayName::lost),
           .force = array(ArrayName::force)};
 }
 

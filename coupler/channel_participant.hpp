@@ -82,6 +82,7 @@ class ChannelParticipant final : public Participant {
   Declaration declaration_;
   std::optional<WorkMeter> meter_;  ///< of the window whose work is not yet known
   std::size_t surface_nodes_ = 0;
+  std::uint64_t surface_cells_ = 0;
   OutputArrays output_arrays_;
   std::array<std::span<double>, transport::array_count> arrays_;
   bool one_set_ = false;  ///< both sides have the same arrays

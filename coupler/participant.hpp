@@ -96,7 +96,8 @@ struct Declaration {
                                ///< need it
   bool light_boundary =
       false;  ///< particles: they can fill ParticleFields::moved_displacement and moved_velocity
-  bool checkpoints = false;              ///< it answers write_checkpoint and read_checkpoint
+  bool loses_cells = false;  ///< structure: cells of Ω_S may break; it fills StructureFields::lost
+  bool checkpoints = false;  ///< it answers write_checkpoint and read_checkpoint
   ForceUse force_use = ForceUse::kicks;  ///< structure
   std::vector<StepLimit> limits{};
   std::vector<Effect> effects{};
@@ -119,6 +120,9 @@ struct StructureFields {
   std::span<double> velocity;       ///< m/s; at the window's end (explicit leapfrog: half a step before)
   std::span<double> free_velocity;  ///< m/s; a step after `velocity`, if no interface force acted in between;
                                     ///< empty where the particles do not need it
+  /// 1 for each cell of Ω_S that has broken, segments before triangles, at every answer; else 0. Empty: the structure
+  /// has not declared that it loses cells.
+  std::span<double> lost;
 };
 /// The boundary is given at both ends of the window where the particles take several steps in it, or where the
 /// structure wants forces of another time than the window's start; else the two end arrays are empty (they are
@@ -135,6 +139,8 @@ struct ParticleFields {
   /// Where Ω_D is at the window's end if it moves as given and each node, besides, answers to its contact
   /// forces with its mass alone (m, m/s). Empty: Ω_D moves as given, whatever the forces.
   std::span<double> moved_displacement, moved_velocity;
+  std::span<const double>
+      lost;  ///< 1 for each cell of Ω_D that is gone, segments before triangles; empty: none can be
   std::span<double> force;  ///< N; that Ω_D receives, mean over the window moved back by Command::force_shift
 };
 

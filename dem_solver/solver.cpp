@@ -109,6 +109,7 @@ void ParticleSolver::find_neighbours() {
 }
 
 bool ParticleSolver::lists_are_used_up() noexcept {
+  if (boundary_list_.has_lost_cells(boundary_)) return true;
   const double boundary_motion = boundary_.empty() ? 0 : boundary_list_.boundary_motion(boundary_);
   const auto used_up = [&] {
     return moved_.towards_another >= skin_ || moved_.alone + boundary_motion >= wall_skin();

@@ -31,6 +31,7 @@ struct Surface {
   std::vector<double> start{};  ///< m; displacement of each node at time 0, 3 a node; empty: none
 
   Index node_count() const { return static_cast<Index>(positions.size() / 3); }
+  std::size_t cell_count() const { return segments.size() + triangles.size(); }
   bool operator==(const Surface&) const = default;
 };
 

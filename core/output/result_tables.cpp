@@ -88,9 +88,10 @@ nlohmann::json ResultTables::summary() const {
       entry = {{"file", ResultFolder::table_file(description.name)}, {"rows", table.rows}};
       continue;
     }
-    entry = nlohmann::json::array();
+    const bool named = !description.rows.empty();
+    entry = named ? nlohmann::json::object() : nlohmann::json::array();
     for (std::size_t k = 0; k < static_cast<std::size_t>(table.rows); ++k) {
-      auto& object = entry.emplace_back(nlohmann::json::object());
+      auto& object = named ? entry[description.rows[k]] : entry.emplace_back(nlohmann::json::object());
       for (std::size_t c = 0; c < description.columns.size(); ++c)
         object[description.columns[c]] = table.row(k)[c];
     }

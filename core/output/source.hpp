@@ -56,6 +56,7 @@ struct TableDescription {
   std::vector<std::string> columns;  ///< "time_s", "diameter_m"
   std::int64_t capacity = 0;         ///< most rows it will ever have
   TableKind kind = TableKind::events;
+  std::vector<std::string> rows = {};  ///< names of the rows of a distribution; empty: they are numbered
 };
 
 /// A number that is known before time 0, for the summary.

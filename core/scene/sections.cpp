@@ -38,6 +38,8 @@ void describe(Fields& fields, ProbeScene& probe) {
 
 void describe(Fields&, StageTimesScene&) {}
 
+void describe(Fields&, LargestForcesScene&) {}
+
 void describe(Fields& fields, EnergyErrorScene& energy_error) {
   fields.with_default(
       "warning", energy_error.warning,
@@ -60,6 +62,10 @@ void describe(Fields& fields, OutputScene& output) {
   fields.section("stage_times", output.stage_times,
                  "columns of probes.csv with the seconds that each stage of the steps has taken so far; "
                  "`talus explain` of the result then shows its share");
+  fields.section(
+      "largest_forces", output.largest_forces,
+      "tables of the summary: the largest force of every part and support of the structure over all steps, "
+      "and what broke first");
   fields.section("energy_error", output.energy_error_scene,
                  "how far the energy balance may be off, as shares of the energy that the run is about");
 }

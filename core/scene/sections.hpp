@@ -34,6 +34,10 @@ void describe(Fields& fields, ProbeScene& probe);
 struct StageTimesScene {};
 void describe(Fields& fields, StageTimesScene& stage_times);
 
+/// `output.largest_forces: {}`: of parts and supports over all steps, in the summary.
+struct LargestForcesScene {};
+void describe(Fields& fields, LargestForcesScene& forces);
+
 void describe(Fields& fields, EnergyErrorScene& energy_error);
 
 /// `output:` what is written and how often.
@@ -42,6 +46,7 @@ struct OutputScene {
   std::optional<double> fields_every;  ///< s between frames of fields.h5; absent: no field output
   std::vector<std::pair<std::string, ProbeScene>> probes;
   std::optional<StageTimesScene> stage_times;
+  std::optional<LargestForcesScene> largest_forces;
   std::optional<EnergyErrorScene> energy_error_scene;
   EnergyErrorScene energy_error() const { return energy_error_scene.value_or(EnergyErrorScene{}); }
 };

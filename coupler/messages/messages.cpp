@@ -116,7 +116,8 @@ json to_json(const core::OutputDescription& outputs) {
     j["tables"].push_back({{"name", table.name},
                            {"columns", table.columns},
                            {"capacity", table.capacity},
-                           {"kind", static_cast<int>(table.kind)}});
+                           {"kind", static_cast<int>(table.kind)},
+                           {"rows", table.rows}});
   for (const auto& fact : outputs.facts) j["facts"].push_back({{"name", fact.name}, {"value", fact.value}});
   return j;
 }
@@ -134,7 +135,8 @@ core::OutputDescription outputs_from(const json& j) {
     outputs.tables.push_back({.name = table.at("name"),
                               .columns = table.at("columns"),
                               .capacity = table.at("capacity"),
-                              .kind = static_cast<core::TableKind>(table.at("kind").get<int>())});
+                              .kind = static_cast<core::TableKind>(table.at("kind").get<int>()),
+                              .rows = table.value("rows", std::vector<std::string>{})});
   for (const auto& fact : j.value("facts", json::array()))
     outputs.facts.push_back({.name = fact.at("name"), .value = fact.at("value")});
   return outputs;
@@ -208,6 +210,7 @@ Bytes encode(const Declaration& declaration) {
                {"insists_on_step", declaration.insists_on_step},
                {"free_velocity", declaration.free_velocity},
                {"light_boundary", declaration.light_boundary},
+               {"loses_cells", declaration.loses_cells},
                {"checkpoints", declaration.checkpoints},
                {"force_use", static_cast<int>(declaration.force_use)},
                {"limits", limits},
@@ -224,6 +227,7 @@ Declaration decode_declaration(ByteView bytes, const std::string& sender) {
                             .insists_on_step = j.at("insists_on_step"),
                             .free_velocity = j.at("free_velocity"),
                             .light_boundary = j.at("light_boundary"),
+                            .loses_cells = j.value("loses_cells", false),
                             .checkpoints = j.at("checkpoints"),
                             .force_use = static_cast<ForceUse>(j.at("force_use").get<std::uint32_t>()),
                             .limits = {},

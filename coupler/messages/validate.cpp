@@ -88,6 +88,8 @@ void validate_table(const core::TableDescription& table) {
   require(!table.columns.empty(), "table '{}' has no columns", table.name);
   for (const auto& column : table.columns) require_name(column, "a table's column");
   const auto columns = static_cast<std::int64_t>(table.columns.size());
+  require(table.rows.empty() || std::ssize(table.rows) == table.capacity,
+          "table '{}' names {} rows and has room for {}", table.name, table.rows.size(), table.capacity);
   require(table.capacity >= 0 && table.capacity < most_values / columns, "table '{}' is to hold {} rows",
           table.name, table.capacity);
 }

@@ -61,6 +61,26 @@ std::string words_about_windows(const json& summary) {
   return words;
 }
 
+/// How near the structure came to breaking, and what did break.
+std::string words_about_strength(const json& tables) {
+  std::string words;
+  if (const auto used = tables.find("utilisation"); used != tables.end()) {
+    std::pair<double, std::string> most;
+    for (const auto& [part, row] : used->items())
+      most = std::max(most, {row.at("utilisation").get<double>(), part});
+    words +=
+        fmt::format("  most used        {}: {:.0f} % of its breaking load\n", most.second, 100 * most.first);
+  }
+  if (const auto ruptures = tables.find("ruptures"); ruptures != tables.end())
+    for (const auto& [part, row] : ruptures->items())
+      if (row.at("broken") > 0)
+        words += fmt::format("  broken           {:.0f} elements of {}, the first at {} under {}\n",
+                             row.at("broken").get<double>(), part,
+                             core::readable(row.at("first_time_s").get<double>(), "s"),
+                             core::readable(row.at("first_force_N").get<double>(), "N"));
+  return words;
+}
+
 }  // namespace
 
 void add_facts(json& summary, const PreparedRun& run) {
@@ -120,7 +140,7 @@ std::string closing_words(const std::filesystem::path& folder) {
                        summary.at("real_time_factor").get<double>(),
                        core::readable(summary.at("simulated_time_s").get<double>(), "s"),
                        core::readable(summary.at("wall_time_s").get<double>(), "s"));
-  words += words_about_windows(summary);
+  words += words_about_windows(summary) + words_about_strength(summary.at("tables"));
   const auto limited_by = summary.at("limited_by").get<std::string>();
   if (!limited_by.empty()) words += "  step limited by  " + limited_by + "\n";
   for (const auto& warning : summary.at("warnings"))

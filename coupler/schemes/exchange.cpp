@@ -19,7 +19,8 @@ Exchange::Side side(Session& session, Role role) {
           .end_velocity = peer.array(ArrayName::end_velocity),
           .free_velocity = peer.array(ArrayName::free_velocity),
           .moved_displacement = peer.array(ArrayName::moved_displacement),
-          .moved_velocity = peer.array(ArrayName::moved_velocity)};
+          .moved_velocity = peer.array(ArrayName::moved_velocity),
+          .lost = peer.array(ArrayName::lost)};
 }
 
 }  // namespace
@@ -87,6 +88,11 @@ void Exchange::motion_to_boundary() {
   mapping_.to_boundary(structure_.velocity, particles_.velocity);
   if (!structure_.free_velocity.empty())
     mapping_.to_boundary(structure_.free_velocity, particles_.free_velocity);
+  losses_to_boundary();
+}
+
+void Exchange::losses_to_boundary() {
+  std::ranges::copy(structure_.lost, particles_.lost.begin());
 }
 
 void Exchange::extrapolate_boundary_end(const Window& window) {
@@ -113,6 +119,7 @@ void Exchange::accept_window() {
       work_of(structure_, {structure_start_, structure_start_velocity_}, structure_.displacement);
   mapping_.to_boundary(structure_.displacement, particles_.displacement);
   mapping_.to_boundary(structure_.velocity, particles_.velocity);
+  losses_to_boundary();
 }
 
 double Exchange::work_of(const Side& side, const WorkMeter::Motion& start,
@@ -139,6 +146,7 @@ void Exchange::archive(core::StateArchive& archive) {
     array(name + "_end_displacement", side->end_displacement);
     array(name + "_end_velocity", side->end_velocity);
     array(name + "_free_velocity", side->free_velocity);
+    array(name + "_lost", side->lost);
   }
   std::vector<double> works{work_on_structure(), work_on_boundary()};
   archive.values("works", works);

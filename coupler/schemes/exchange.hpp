@@ -28,7 +28,8 @@ class Exchange {
         end_velocity;                 ///< empty: the particles do not look at the window's end
     std::span<double> free_velocity;  ///< empty: the particles do not ask for it
     std::span<double> moved_displacement,
-        moved_velocity;  ///< empty: the boundary moves as it is told
+        moved_velocity;      ///< empty: the boundary moves as it is told
+    std::span<double> lost;  ///< one value a cell; empty: none is ever lost
   };
 
   /// @pre the session's arrays are laid out; `mapping` lives as long as this
@@ -86,6 +87,8 @@ class Exchange {
  private:
   /// Says, too, at which time level the structure wants the forces.
   Command advance_of_particles(const Window& window, std::optional<int> iteration) const;
+  /// What broke up to a window's end is gone for the particles from the next one on.
+  void losses_to_boundary();
   /// J; of a window that was taken back or might have been: what the side says, else the sum over its nodes.
   double work_of(const Side& side, const WorkMeter::Motion& start, std::span<const double> end) const;
 

@@ -82,6 +82,20 @@ void refuse_heavy_boundary(const Peer& particles) {
 
 }  // namespace
 
+namespace {
+
+/// Which cell of Ω_D goes with a cell of Ω_S is known only where they are the same.
+void refuse_other_cells(const Interface& interface) {
+  if (interface.boundary.segments == interface.structure.segments &&
+      interface.boundary.triangles == interface.structure.triangles)
+    return;
+  throw core::ConfigError(
+      "interface.boundary: the structure may lose elements (`breaks`), and so must the boundary: write "
+      "`same_as_structure`");
+}
+
+}  // namespace
+
 InterfacePlan identical_surfaces() {
   return {.make_boundary = [](const mesh::Surface& structure) { return structure; },
           .tie =
@@ -151,6 +165,9 @@ void lay_out_arrays(Session& session, const std::optional<Interface>& interface,
     throw core::ConfigError(
         "particles.implicit_contact is for the explicit schemes of 'coupling'; a strong scheme iterates "
         "instead");
+  const Peer* structure = session.find(Role::structure);
+  const bool loses_cells = interface && structure->declaration().loses_cells;
+  if (loses_cells) refuse_other_cells(*interface);
   bool needs_end = false;
   for (Peer* peer : session.peers()) {
     Session::request_array(*peer, ArrayName::outputs, peer->output_arrays().size());
@@ -161,6 +178,7 @@ void lay_out_arrays(Session& session, const std::optional<Interface>& interface,
       Session::request_array(*peer, name, values);
     }
     if (free_velocity) Session::request_array(*peer, ArrayName::free_velocity, values);
+    if (loses_cells) Session::request_array(*peer, ArrayName::lost, interface->structure.cell_count());
     if (is_structure) continue;
     needs_end = iterated || needs_boundary_end(peer->declaration(),
                                                session.find(Role::structure)->declaration(), windows);

@@ -20,7 +20,7 @@
 namespace talus::coupler::transport {
 
 inline constexpr std::uint64_t magic_number = 0x314C505553554C54;  // "TLUSUPL1"
-inline constexpr std::uint32_t layout_version = 6;
+inline constexpr std::uint32_t layout_version = 7;
 inline constexpr std::size_t role_count = 2;
 inline constexpr std::size_t array_alignment = 64;
 
@@ -34,7 +34,7 @@ enum class ChannelState : std::uint32_t { unused = 0, awaited = 1, joined = 2, f
 enum class MessageKind : std::uint32_t { none = 0, surface = 1, surface_request = 2, declaration = 3 };
 
 /// Arrays of the data block that a channel owns. `displacement` and `velocity` are those at the window's
-/// start on the particle side.
+/// start on the particle side. `lost` has one value a cell, the others three a node.
 enum class ArrayName : std::uint32_t {
   force,
   displacement,
@@ -44,6 +44,7 @@ enum class ArrayName : std::uint32_t {
   free_velocity,
   moved_displacement,
   moved_velocity,
+  lost,
   outputs,
   count
 };

@@ -18,6 +18,7 @@ using coupler::Command;
 struct CoupledBoundary {
   mesh::Surface surface;
   Index first_node = 0;             ///< of Ω_D
+  Boundary::Cells cells;            ///< of Ω_D
   std::vector<double> node_masses;  ///< kg; of Ω_D
 };
 
@@ -25,7 +26,12 @@ CoupledBoundary receive_boundary(const RunScene& scene, coupler::Participant& pa
   CoupledBoundary boundary;
   boundary.surface = make_surface(scene.particles.boundaries);
   boundary.first_node = boundary.surface.node_count();
+  const std::size_t own_segments = boundary.surface.segments.size(),
+                    own_triangles = boundary.surface.triangles.size();
   append(boundary.surface, participant.receive_surface(boundary.node_masses));
+  boundary.cells = {.first_segment = own_segments,
+                    .segments = boundary.surface.segments.size() - own_segments,
+                    .first_triangle = own_triangles};
   return boundary;
 }
 
@@ -88,7 +94,7 @@ void serve_particles(const core::SceneFile& file, coupler::Participant& particip
   if (scene.particles.implicit_contact)
     run.solver.boundary().set_node_masses(boundary.node_masses, boundary.first_node);
   participant.declare(declaration_of(scene, run, !boundary.node_masses.empty()));
-  WindowSteps steps(run.solver, {boundary.first_node, boundary.node_masses}, own_step(scene));
+  WindowSteps steps(run.solver, {boundary.first_node, boundary.node_masses, boundary.cells}, own_step(scene));
   for (Command command = participant.next(); command.action != Action::finish; command = participant.next()) {
     obey(command, run, steps, participant);
     participant.answer();

@@ -30,6 +30,7 @@ void WindowSteps::advance(const coupler::Command& command, const coupler::Partic
                                  fields.end_velocity, command.length, interface_.first_node},
                       .steps = steps,
                       .step = command.length / static_cast<double>(steps)};
+  if (!fields.lost.empty()) solver_.boundary().lose(interface_.cells, fields.lost);
   solver_.set_clock({.time = command.time, .step = window.step});
   force_.begin({command.length, steps, command.force_shift}, fields.force);
   if (!fields.moved_displacement.empty() && !light_nodes_)

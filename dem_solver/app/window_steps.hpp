@@ -20,6 +20,7 @@ class WindowSteps {
   struct Interface {
     Index first_node = 0;                   ///< of Ω_D
     std::span<const double> node_masses{};  ///< kg; of Ω_D, outlives this
+    Boundary::Cells cells{};                ///< of Ω_D
   };
   /// @param longest s; of a step; absent: one step a window
   WindowSteps(ParticleSolver& solver, const Interface& interface, std::optional<double> longest);

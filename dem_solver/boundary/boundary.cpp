@@ -20,15 +20,36 @@ Boundary::Boundary(const mesh::Surface& surface, std::span<const Index> material
       features_.push_back(feature);
     };
     part_names_.push_back(part.name);
-    for (Index s = part.segment_begin; s < part.segment_end; ++s)
+    for (Index s = part.segment_begin; s < part.segment_end; ++s) {
       add({surface.segments[s][0], surface.segments[s][1], -1}, part.wire_radius);
-    for (Index t = part.triangle_begin; t < part.triangle_end; ++t) add(surface.triangles[t], 0);
+      cell_of_feature_.push_back(s);
+    }
+    for (Index t = part.triangle_begin; t < part.triangle_end; ++t) {
+      add(surface.triangles[t], 0);
+      cell_of_feature_.push_back(-1 - t);
+    }
   }
   reference_ = surface.positions;
   displacement_.resize(reference_.size());
   velocity_.resize(reference_.size());
   reaction_.resize(nodes);
   loaded_nodes_.reserve(nodes);
+}
+
+void Boundary::lose(const Cells& cells, std::span<const double> lost) {
+  if (lost_.empty() && std::ranges::all_of(lost, [](double value) { return value == 0; })) return;
+  lost_.resize(features_.size(), 0);
+  bool changed = false;
+  for (std::size_t f = 0; f < features_.size(); ++f) {
+    const bool segment = cell_of_feature_[f] >= 0;
+    const auto cell = static_cast<std::size_t>(segment ? cell_of_feature_[f] : -1 - cell_of_feature_[f]);
+    const std::size_t first = segment ? cells.first_segment : cells.first_triangle;
+    if (cell < first) continue;  // of the scene's own
+    const Index now = lost[cell - first + (segment ? 0 : cells.segments)] != 0 ? 1 : 0;
+    changed = changed || now != lost_[f];
+    lost_[f] = now;
+  }
+  losses_ += changed ? 1 : 0;
 }
 
 Triple<double> Boundary::Motion::velocity(std::size_t i, double x) const noexcept {

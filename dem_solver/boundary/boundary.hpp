@@ -95,6 +95,17 @@ class Boundary {
   void set_free_velocity(std::span<const double> velocity, Index first) noexcept;
   std::span<const Row> free_velocity() const noexcept { return free_velocity_; }  ///< w: inverse mass
 
+  /// Where the cells of a received surface stand among all of the boundary's.
+  struct Cells {
+    std::size_t first_segment = 0, segments = 0, first_triangle = 0;
+  };
+  /// Cells whose value is not 0 are gone: nothing meets them any more. @param lost one a received cell, segments before
+  /// triangles
+  void lose(const Cells& cells, std::span<const double> lost);
+  bool is_lost(Index feature) const noexcept { return !lost_.empty() && lost_[feature] != 0; }
+  /// Another number whenever other features are lost.
+  std::int64_t losses() const noexcept { return losses_; }
+
   void clear_reactions() noexcept;
   /// Sets a contact's reaction -weights x force on the nodes of a feature.
   void react(const Feature& feature, const Weights& weights, const Triple<double>& force_on_sphere) noexcept;
@@ -116,6 +127,7 @@ class Boundary {
     visit("velocity", self.velocity_);
     visit("reaction", self.reaction_);
     visit("loaded_nodes", self.loaded_nodes_);
+    visit("lost", self.lost_);
   }
 
  private:
@@ -127,6 +139,10 @@ class Boundary {
   void react_at(Index node, const Triple<double>& force) noexcept;
 
   std::vector<Feature> features_;
+  std::vector<Index>
+      cell_of_feature_;      ///< number of its segment, or -1 less that of its triangle, in the surface
+  std::vector<Index> lost_;  ///< 1 for each feature that is gone; empty: none has ever been
+  std::int64_t losses_ = 0;
   std::vector<std::string> part_names_;
   std::vector<Index> part_of_node_;
   std::vector<double> reference_, displacement_, velocity_;  ///< 3 a node

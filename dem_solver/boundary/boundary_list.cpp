@@ -33,7 +33,8 @@ std::vector<SlotMove> BoundaryList::rebuild(const Boundary& boundary, const Sphe
     grid_.near(p, p.w + skin, near);
     const auto begin = static_cast<Index>(next.candidates_.size());
     for (Index k : near)
-      if (distance_to(boundary, boundary.features()[k], p) < p.w + skin) next.candidates_.push_back(k);
+      if (!boundary.is_lost(k) && distance_to(boundary, boundary.features()[k], p) < p.w + skin)
+        next.candidates_.push_back(k);
     if (static_cast<Index>(next.candidates_.size()) == begin) continue;
 
     next.spheres_.push_back(i);
@@ -54,6 +55,7 @@ std::vector<SlotMove> BoundaryList::rebuild(const Boundary& boundary, const Sphe
   count_.swap(next.count_);
   contacts_.swap(next.contacts_);
   listed_displacement_.assign(now.begin(), now.end());
+  listed_losses_ = boundary.losses();
   return moves;
 }
 

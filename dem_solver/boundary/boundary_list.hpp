@@ -39,6 +39,9 @@ class BoundaryList {
     return boundary.motion_bound(listed_displacement_);
   }
 
+  /// Whether cells of the boundary were lost since.
+  bool has_lost_cells(const Boundary& boundary) const noexcept { return listed_losses_ != boundary.losses(); }
+
   /// Spheres with candidates; those of the k-th are candidates()[first()[k]] .. candidates()[first()[k + 1]],
   /// the place is the slot.
   std::span<const Index> spheres() const noexcept { return spheres_; }
@@ -67,6 +70,7 @@ class BoundaryList {
   std::vector<BoundaryContact> contacts_;
   std::vector<double> listed_displacement_;   ///< of the boundary's nodes when the list was built
   std::vector<double> gridded_displacement_;  ///< and when the grid was; empty before
+  std::int64_t listed_losses_ = 0;            ///< Boundary::losses() when the list was built
   FeatureGrid grid_;
 };
 

@@ -29,7 +29,8 @@ std::vector<std::string> interface_parts(const core::SceneFile& file) {
 struct PublishedSurface {
   mesh::Surface surface;
   std::vector<Index> nodes;
-  std::vector<double> masses;  ///< kg; infinite where the motion is prescribed
+  std::vector<double> masses;      ///< kg; infinite where the motion is prescribed
+  std::vector<std::size_t> parts;  ///< numbers of its parts, in their order
 };
 
 const Part& find_part(const Model& model, const std::string& name) {
@@ -88,16 +89,44 @@ PublishedSurface published_surface(const Model& model, const std::vector<std::st
       published.surface.start.insert(published.surface.start.end(), u.begin(), u.end());
     }
     add_cells(part, number, published.surface);
+    published.parts.push_back(static_cast<std::size_t>(&part - model.parts.data()));
   }
   return published;
 }
 
-coupler::Declaration declaration(Structure& structure, const StructuralScene& scene) {
+bool may_break(const Part& part) {
+  return std::visit([](const auto& batch) { return Breaks<std::decay_t<decltype(batch)>>; }, part.elements);
+}
+
+/// 1 for each cell of Ω_S that has broken, segments before triangles. Only segments break.
+void publish_losses(const Structure& structure, const PublishedSurface& published, std::span<double> lost) {
+  if (lost.empty()) return;
+  std::ranges::fill(lost, 0.0);
+  std::size_t run = 0;
+  const Model& model = structure.model();
+  for (const std::size_t number : published.parts) {
+    const mesh::SurfacePart& cells = published.surface.parts[run++];
+    const Part& part = model.parts[number];
+    const Configuration at = configuration_of(model, part, structure.integrator().state().configuration());
+    std::visit(
+        [&](const auto& batch) {
+          if constexpr (Breaks<std::decay_t<decltype(batch)>>)
+            for (Index e = 0; e < batch.size(); ++e)
+              lost[static_cast<std::size_t>(cells.segment_begin + e)] = batch.is_broken(at, e) ? 1 : 0;
+        },
+        part.elements);
+  }
+}
+
+coupler::Declaration declaration(Structure& structure, const StructuralScene& scene,
+                                 const PublishedSurface& published) {
   coupler::Declaration declared{
       .program = "fem_solver " + core::version(),
       .step = structure.step(),
       .insists_on_step = scene.structure.unstable_step == StructureScene::UnstableStep::allowed,
       .free_velocity = !structure.integrator().free_velocity(0, structure.step()).empty(),
+      .loses_cells = std::ranges::any_of(
+          published.parts, [&](std::size_t p) { return may_break(structure.model().parts[p]); }),
       .checkpoints = true,
       .force_use = structure.is_implicit() ? coupler::ForceUse::load : coupler::ForceUse::kicks,
       .limits = {},
@@ -151,7 +180,8 @@ void refuse_static(const core::SceneFile& file, const StructuralScene& scene) {
         "out, or take `explicit` or `implicit`");
 }
 
-void obey(const coupler::Command& command, Structure& structure, coupler::Participant& participant) {
+void obey(const coupler::Command& command, Structure& structure, const PublishedSurface& published,
+          coupler::Participant& participant) {
   using coupler::Action;
   Integrator& integrator = structure.integrator();
   const coupler::StructureFields fields = participant.structure_fields();
@@ -180,6 +210,7 @@ void obey(const coupler::Command& command, Structure& structure, coupler::Partic
       return;
   }
   publish_motion(integrator, fields, present);
+  publish_losses(structure, published, fields.lost);
 }
 
 }  // namespace
@@ -194,10 +225,10 @@ void serve_structure(const core::SceneFile& file, coupler::Participant& particip
   const PublishedSurface published = published_surface(structure.model(), interface_parts(file), start);
   structure.make_interface(published.nodes);
   participant.publish_surface(published.surface, published.masses);
-  participant.declare(declaration(structure, scene));
+  participant.declare(declaration(structure, scene, published));
   for (auto command = participant.next(); command.action != coupler::Action::finish;
        command = participant.next()) {
-    obey(command, structure, participant);
+    obey(command, structure, published, participant);
     participant.answer();
     structure.integrator().prepare();
   }

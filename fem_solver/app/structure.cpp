@@ -73,6 +73,8 @@ void add_effects_of_part(std::vector<StructuralEffect>& effects, const std::stri
   add("elements", "", true);
   if (const auto* sheet = std::get_if<MembraneScene>(&element))
     add("tension field", ".membrane.tension_field", sheet->tension_field.has_value()).limit = compression;
+  const auto* cable = std::get_if<CableScene>(&element);
+  if (cable && cable->breaks) dissipating("breaking", ".cable.breaks");
   if (std::holds_alternative<BarScene>(element)) add("slackness", ".cable", false).limit = compression;
   if (const auto* rope = std::get_if<SlidingCableScene>(&element))
     add("friction", ".sliding_cable.friction", rope->has_friction());  // it may hold, without any work
@@ -108,7 +110,7 @@ struct MakeIntegrator {
   Made operator()(const StaticScene& scene) const {
     return std::make_unique<StaticSolver>(
         model, assembly,
-        StaticOptions{.end = times.end, .step = times.step, .newton = {.tolerance = scene.tolerance}});
+        StaticOptions{.end = times.end, .step = times.step, .newton = {.tolerance = scene.tolerance}}, start);
   }
 };
 
@@ -142,6 +144,7 @@ Structure::Structure(const StructuralScene& scene)
       implicit_(std::holds_alternative<ImplicitScene>(scene.structure.method)),
       output_scene_(scene.output) {
   check_step(scene.structure);
+  if (scene.output.largest_forces) start_.record = ForceRecord(model_).begin();
   if (scene.structure.mass_scaling) core::log_warning(description(added_mass_));
   integrator_ = std::visit(
       MakeIntegrator{model_, assembly_, start_, {step_, scene.time.end, is_watched(scene.structure)}},

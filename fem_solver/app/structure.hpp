@@ -47,6 +47,7 @@ class Structure {
   const Model& model() const { return model_; }
   const State& start() const { return start_; }  ///< where time 0 finds it
   Integrator& integrator() { return *integrator_; }
+  const Integrator& integrator() const { return *integrator_; }
   /// Parts whose nodes receive forces from outside, in the order their nodes are published.
   void make_interface(const std::vector<Index>& nodes);
   /// Makes the output; the interface must be known by then.

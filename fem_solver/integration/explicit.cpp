@@ -18,7 +18,7 @@ struct MassDampingTerm {};
 }  // namespace
 
 ExplicitSolver::ExplicitSolver(const Model& model, Assembly& assembly, double step, const State& start)
-    : model_(model), assembly_(assembly), longest_step_(step) {
+    : Integrator(model, start), model_(model), assembly_(assembly), longest_step_(step) {
   const std::size_t values = model.reference.size();
   static_cast<State&>(state_) = start;
   state_.force.assign(values, 0);
@@ -66,6 +66,10 @@ bool ExplicitSolver::starts_in_balance(double time, double step) noexcept {
   state_.kick = 0.5 * step;
   evaluate_forces(time);
   impose_supports(time, step);
+  if (record_) {
+    record_->note_elements(time, state_.configuration(), assembly_.next_memory(), state_.record);
+    record_->note_supports(time, state_.reactions, state_.record);
+  }
   const double allowed = round_off * assembly_.largest_element_force();
   return std::ranges::all_of(state_.force, [=](double value) { return std::abs(value) <= allowed; });
 }
@@ -93,6 +97,7 @@ void ExplicitSolver::step(double time, double step) {
   assembly_.start_step();
   state_.kick = 0.5 * (state_.previous_step + step);
   evaluate_forces(time);
+  if (record_) record_->note_elements(time, state_.configuration(), assembly_.next_memory(), state_.record);
   std::ranges::copy(assembly_.next_memory(), state_.memory.begin());
   impose_supports(time, step);
   assembly_.lap(StepStage::other_forces);
@@ -106,6 +111,7 @@ void ExplicitSolver::step(double time, double step) {
     damp_sliding_nodes(step);
   }
   assembly_.lap(StepStage::slides);
+  if (record_) record_->note_supports(time, state_.reactions, state_.record);
   leave(time, step);
   assembly_.lap(StepStage::energy);
   state_.previous_step = step;

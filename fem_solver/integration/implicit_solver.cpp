@@ -24,7 +24,12 @@ constexpr std::int64_t steps_of_overshoot = 3;
 
 ImplicitSolver::ImplicitSolver(const Model& model, Assembly& assembly, const ImplicitOptions& options,
                                const State& start)
-    : model_(model), assembly_(assembly), options_(options), held_(held_directions(model)), newton_(model) {
+    : Integrator(model, start),
+      model_(model),
+      assembly_(assembly),
+      options_(options),
+      held_(held_directions(model)),
+      newton_(model) {
   const double r = options.spectral_radius;
   alpha_m_ = (2 * r - 1) / (r + 1);
   alpha_f_ = r / (r + 1);
@@ -143,6 +148,11 @@ bool ImplicitSolver::take(const Step& step) {
   if (created_energy_) {
     state_ = before_;
     return false;
+  }
+  if (record_) {
+    record_->note_elements(step.time + step.length, {state_.displacement, before_.memory}, state_.memory,
+                           state_.record);
+    record_->note_supports(step.time + step.length, state_.reactions, state_.record);
   }
   ++state_.steps;
   return true;

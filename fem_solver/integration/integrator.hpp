@@ -1,8 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "fem_solver/integration/force_record.hpp"
 #include "fem_solver/integration/interface_force.hpp"
 #include "fem_solver/model/state.hpp"
 
@@ -24,6 +26,10 @@ struct EnergyBalance {
 /// A way of going through time, as a program sees it: called once a window, never inside a step.
 class Integrator {
  public:
+  /// @param start where its state has a record, the largest forces are noted there at every step
+  Integrator(const Model& model, const State& start) {
+    if (!start.record.empty()) record_.emplace(model);
+  }
   virtual ~Integrator() = default;
 
   /// From `time` to `time + length` (s), in as many steps as it takes.
@@ -66,6 +72,7 @@ class Integrator {
 
  protected:
   InterfaceForce interface_;
+  std::optional<ForceRecord> record_;
 };
 
 }  // namespace talus::fem

@@ -16,9 +16,15 @@ constexpr std::size_t most_nodes_named = 4;
 
 }  // namespace
 
-StaticSolver::StaticSolver(const Model& model, Assembly& assembly, const StaticOptions& options)
-    : model_(model), assembly_(assembly), options_(options), held_(held_directions(model)), newton_(model) {
-  static_cast<State&>(state_) = initial_state(model);
+StaticSolver::StaticSolver(const Model& model, Assembly& assembly, const StaticOptions& options,
+                           const State& start)
+    : Integrator(model, start),
+      model_(model),
+      assembly_(assembly),
+      options_(options),
+      held_(held_directions(model)),
+      newton_(model) {
+  static_cast<State&>(state_) = start;
   std::ranges::fill(state_.velocity, 0.0);
   state_.reactions.assign(reaction_count(model), 0);
   external_.assign(model.reference.size(), 0);
@@ -101,6 +107,8 @@ void StaticSolver::residual(std::span<const double> displacement, std::span<doub
 void StaticSolver::account(const StaticState& before, const LoadSpan& span) {
   std::vector<double> sum(model_.reference.size()), change(model_.reference.size());
   residual(state_.displacement, sum);
+  if (record_)
+    record_->note_elements(span.after.time, state_.configuration(), assembly_.next_memory(), state_.record);
   std::ranges::copy(assembly_.next_memory(), state_.memory.begin());
   newton_.slides().carry_over(sum);
   std::ranges::transform(state_.displacement, before.displacement, change.begin(), std::minus<>{});
@@ -110,6 +118,7 @@ void StaticSolver::account(const StaticState& before, const LoadSpan& span) {
     state_.reactions[h.reaction] = force;
   }
   add_works(model_, interface_, span, change, state_.works);
+  if (record_) record_->note_supports(span.after.time, state_.reactions, state_.record);
 }
 
 EnergyBalance StaticSolver::balance() {

@@ -34,7 +34,9 @@ struct StaticState : State {
 class StaticSolver final : public Integrator {
  public:
   /// @pre model and assembly outlive the solver
-  StaticSolver(const Model& model, Assembly& assembly, const StaticOptions& options);
+  StaticSolver(const Model& model, Assembly& assembly, const StaticOptions& options)
+      : StaticSolver(model, assembly, options, initial_state(model)) {}
+  StaticSolver(const Model& model, Assembly& assembly, const StaticOptions& options, const State& start);
 
   void advance(double time, double length) override;
   const StaticState& state() const override { return state_; }

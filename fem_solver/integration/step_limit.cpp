@@ -139,6 +139,10 @@ template <>
 constexpr const char* kind_of<BrakeBatch> = "brakes";
 template <>
 constexpr const char* kind_of<ElasticPlasticBatch> = "ropes that yield";
+template <>
+constexpr const char* kind_of<BreakingCableBatch> = "cables that break";
+template <>
+constexpr const char* kind_of<BreakingElasticPlasticBatch> = "ropes that yield and break";
 
 std::string formula(double frequency, const Damping& damping) {
   return fmt::format("(2/w)(sqrt(1 + xi^2) - xi) with w = {:.6g} 1/s, xi = {:.3g}", frequency,
@@ -147,9 +151,9 @@ std::string formula(double frequency, const Damping& damping) {
 
 /// A part that can hang slack, and does.
 template <class Batch>
-constexpr bool may_be_slack =
-    std::is_same_v<Batch, CableBatch> || std::is_same_v<Batch, SlidingCableBatch> ||
-    std::is_same_v<Batch, FrictionalCableBatch> || std::is_same_v<Batch, ElasticPlasticBatch>;
+constexpr bool may_be_slack = std::is_same_v<Batch, CableBatch> || std::is_same_v<Batch, SlidingCableBatch> ||
+                              std::is_same_v<Batch, FrictionalCableBatch> ||
+                              std::is_same_v<Batch, ElasticPlasticBatch> || Breaks<Batch>;
 template <class Batch>
 bool is_slack(const Batch& batch, const Configuration& at) {
   if constexpr (!may_be_slack<Batch>)

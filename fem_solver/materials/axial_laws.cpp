@@ -10,7 +10,7 @@
 namespace talus::fem {
 namespace {
 
-double green_lagrange(const ElasticPlasticRope::Lengths& lengths) noexcept {
+double green_lagrange(const SegmentLengths& lengths) noexcept {
   const auto [l, L] = lengths;
   return 0.5 * (l - L) * (l + L) / (L * L);
 }
@@ -39,6 +39,29 @@ void check_table(const std::vector<std::pair<double, double>>& table) {
 
 }  // namespace
 
+AxialResponse ElasticRope::respond(const Lengths& lengths, double history) const noexcept {
+  const double stress = section.youngs_modulus * green_lagrange(lengths) + section.prestress;
+  if (stress <= 0) return {0, 0, history};
+  const double q = lengths.current / lengths.reference;
+  return {section.area * stress * q,
+          section.area * (stress + section.youngs_modulus * q * q) / lengths.reference, history};
+}
+
+double ElasticRope::stored(const Lengths& lengths, double) const noexcept {
+  const double stress = std::max(0.0, section.youngs_modulus * green_lagrange(lengths) + section.prestress);
+  return section.area * lengths.reference * (stress * stress - section.prestress * section.prestress) /
+         (2 * section.youngs_modulus);
+}
+
+double ElasticRope::slack_energy(double reference) const noexcept {
+  return -section.area * reference * section.prestress * section.prestress / (2 * section.youngs_modulus);
+}
+
+double ElasticRope::stiffest_slope(const Lengths& lengths, double force) const noexcept {
+  const auto [l, L] = lengths;
+  return force / l + section.area * section.youngs_modulus * l * l / (L * L * L);
+}
+
 AxialResponse ElasticPlasticRope::respond(const Lengths& lengths, double history) const noexcept {
   const double E = section.youngs_modulus, e = green_lagrange(lengths);
   const double trial = E * (e - history) + section.prestress;
@@ -55,6 +78,11 @@ double ElasticPlasticRope::stored(const Lengths& lengths, double history) const 
   const double stress = std::max(0.0, E * (green_lagrange(lengths) - history) + S_pre);
   const double density = (stress * stress - S_pre * S_pre) / (2 * E) + 0.5 * hardening * history * history;
   return section.area * lengths.reference * density;
+}
+
+/// Hardening keeps its energy; once the rope is broken nothing gives it back, see Breaking.
+double ElasticPlasticRope::slack_energy(double reference) const noexcept {
+  return -section.area * reference * section.prestress * section.prestress / (2 * section.youngs_modulus);
 }
 
 double ElasticPlasticRope::dissipated(const Lengths& lengths, double history) const noexcept {

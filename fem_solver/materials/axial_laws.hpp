@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <limits>
 #include <span>
 #include <utility>
 #include <vector>
@@ -14,6 +16,29 @@ struct AxialResponse {
   double force = 0;    ///< N; tension positive
   double slope = 0;    ///< dN/dl with the history following (N/m)
   double history = 0;  ///< to be kept if the state is accepted
+};
+
+/// Current and reference length of a segment.
+struct SegmentLengths {
+  double current, reference;  ///< m
+};
+
+/// Elastic rope, tension only: the cable of AxialElement in its length, with nothing to remember.
+///
+///     e = (l^2 - L^2)/(2 L^2)    S = E e + S_pre    N = A S l/L    U = A L (S^2 - S_pre^2)/(2 E)
+///
+/// S < 0 is slack: N = 0. Proven by (elements_axial_laws.cpp): "work done on a law with memory is stored or
+/// dissipated".
+struct ElasticRope {
+  AxialSection section;
+
+  using Lengths = SegmentLengths;
+  AxialResponse respond(const Lengths& lengths, double history) const noexcept;
+  double stored(const Lengths& lengths, double history) const noexcept;  ///< J
+  double dissipated(const Lengths&, double) const noexcept { return 0; }
+  /// Stored where it is slack (J).
+  double slack_energy(double reference) const noexcept;
+  double stiffest_slope(const Lengths& lengths, double force) const noexcept;  ///< N/m
 };
 
 /// Elastic-plastic rope, tension only. Source: one-dimensional return mapping, Simo and Hughes, Computational
@@ -39,12 +64,11 @@ struct ElasticPlasticRope {
   double yield_stress = 0;
   double hardening = 0;
 
-  struct Lengths {
-    double current, reference;  ///< m
-  };
+  using Lengths = SegmentLengths;
   AxialResponse respond(const Lengths& lengths, double history) const noexcept;
   double stored(const Lengths& lengths, double history) const noexcept;      ///< J
   double dissipated(const Lengths& lengths, double history) const noexcept;  ///< J
+  double slack_energy(double reference) const noexcept;                      ///< J
   /// dN/dl of elastic loading at a force: what it may unload to in any step (N/m).
   double stiffest_slope(const Lengths& lengths, double force) const noexcept;
 };
@@ -82,7 +106,7 @@ class BrakeLaw {
   /// piece
   explicit BrakeLaw(Description description);
 
-  using Lengths = ElasticPlasticRope::Lengths;
+  using Lengths = SegmentLengths;
   AxialResponse respond(const Lengths& lengths, double history) const noexcept;
   double stored(const Lengths& lengths, double history) const noexcept;      ///< J
   double dissipated(const Lengths& lengths, double history) const noexcept;  ///< J
@@ -104,6 +128,49 @@ class BrakeLaw {
   Description description_;
   double initial_stiffness_ = 0;
   std::vector<double> work_;  ///< of the table up to each point
+};
+
+/// What a segment bears; what is not given does not count.
+struct BreakingLimits {
+  double force = std::numeric_limits<double>::infinity();   ///< N
+  double strain = std::numeric_limits<double>::infinity();  ///< change of length over reference length
+  double work = std::numeric_limits<double>::infinity();    ///< J; stored since slack, and dissipated
+};
+
+/// A law that breaks: the first step that ends beyond a limit is the last one in which the segment pulls. What it
+/// stored is dissipated then, so that stored + dissipated goes on without a jump.
+///
+///     history >= 0: the law's own      history < 0: broken, minus what it has dissipated on the whole (J)
+///
+/// Proven by (elements_axial_laws.cpp): "work done on a law with memory is stored or dissipated", "a segment breaks at
+/// its force, strain or work, and pulls no more".
+template <class Law>
+struct Breaking {
+  Law law;
+  BreakingLimits limits;
+
+  using Lengths = SegmentLengths;
+  static bool is_broken(double history) noexcept { return history < 0; }
+
+  AxialResponse respond(const Lengths& lengths, double history) const noexcept {
+    if (is_broken(history)) return {0, 0, history};
+    AxialResponse response = law.respond(lengths, history);
+    const double lost = law.stored(lengths, response.history) + law.dissipated(lengths, response.history) -
+                        law.slack_energy(lengths.reference);
+    if (response.force > limits.force || lengths.current > (1 + limits.strain) * lengths.reference ||
+        lost > limits.work)
+      response.history = -std::max(lost, std::numeric_limits<double>::min());
+    return response;
+  }
+  double stored(const Lengths& lengths, double history) const noexcept {
+    return is_broken(history) ? law.slack_energy(lengths.reference) : law.stored(lengths, history);
+  }
+  double dissipated(const Lengths& lengths, double history) const noexcept {
+    return is_broken(history) ? -history : law.dissipated(lengths, history);
+  }
+  double stiffest_slope(const Lengths& lengths, double force) const noexcept {
+    return law.stiffest_slope(lengths, force);
+  }
 };
 
 }  // namespace talus::fem

@@ -31,14 +31,16 @@ namespace talus::fem {
 ///                                          everything taut that may become taut (N/m)
 ///   add_mass(node_masses)                  lumped (kg)
 /// What elements remember besides: Remembers in configuration.hpp.
-using ElementBatch = std::variant<BarBatch, CableBatch, SlidingCableBatch, PlainMembraneBatch,
-                                  TensionFieldBatch, PrincipalTensionFieldBatch, FrictionalCableBatch,
-                                  BrakeBatch, ElasticPlasticBatch, PenaltySlideBatch>;
+using ElementBatch =
+    std::variant<BarBatch, CableBatch, SlidingCableBatch, PlainMembraneBatch, TensionFieldBatch,
+                 PrincipalTensionFieldBatch, FrictionalCableBatch, BrakeBatch, ElasticPlasticBatch,
+                 BreakingCableBatch, BreakingElasticPlasticBatch, PenaltySlideBatch>;
 
 struct Part {
   std::string name;
   ElementBatch elements;
   std::vector<Index> nodes;  ///< that its elements touch, ascending
+  double breaking_load = 0;  ///< N; 0: not known
 };
 
 /// A factor over time, linear between its points and constant beyond them; empty: 1.

@@ -42,7 +42,7 @@ void PathBatch<Law>::stiffest_product(const Configuration& at, std::span<const d
   for (auto e = static_cast<Index>(elements.begin); e < elements.end; ++e) {
     const Vector3 d = chord(at.displacement, e);
     AxialResponse response = segment(e).respond(d, kept(at, e));
-    response.slope = description_.law.stiffest_slope({d.norm(), lengths_[place(e)]}, response.force);
+    response.slope = stiffest_slope(at, e, {d.norm(), lengths_[place(e)]});
     Vector3::Map(&slots[3 * place(e)]) = segment(e).stiffness(d, response) * difference(direction, e);
   }
 }
@@ -52,7 +52,7 @@ void PathBatch<Law>::add_stiffness_bound(const Configuration& at,
                                          std::span<double> node_sums) const noexcept {
   for (Index e = 0; e < size(); ++e) {
     const double length = chord(at.displacement, e).norm(), force = axial_force(at, e);
-    const double along = description_.law.stiffest_slope({length, lengths_[place(e)]}, force);
+    const double along = stiffest_slope(at, e, {length, lengths_[place(e)]});
     add_pair_bound(segments_[place(e)], length > 0 ? std::max(along, std::abs(force) / length) : along,
                    node_sums);
   }
@@ -81,5 +81,7 @@ void PathBatch<Law>::add_mass(std::span<double> node_masses) const noexcept {
 
 template class PathBatch<BrakeLaw>;
 template class PathBatch<ElasticPlasticRope>;
+template class PathBatch<Breaking<ElasticRope>>;
+template class PathBatch<Breaking<ElasticPlasticRope>>;
 
 }  // namespace talus::fem

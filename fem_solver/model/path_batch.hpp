@@ -64,6 +64,9 @@ class PathBatch {
   double elongation(const Configuration& at, Index e) const noexcept {
     return chord(at.displacement, e).norm() - lengths_[place(e)];
   }
+  /// Whether it has broken in a step accepted before.
+  bool is_broken(const Configuration& at, Index e) const noexcept requires requires { Law::is_broken(0.0); }
+  { return Law::is_broken(kept(at, e)); }
   /// Largest elongation of a brake (m), plastic strain of a rope (1); of the steps accepted.
   double kept(const Configuration& at, Index e) const noexcept {
     return at.memory.empty() ? 0 : at.memory[place(e)];
@@ -76,6 +79,12 @@ class PathBatch {
     const auto [near, far] = segments_[place(e)];
     return Vector3::Map(&values[3 * place(far)]) - Vector3::Map(&values[3 * place(near)]);
   }
+  /// N/m; along the axis, at most.
+  double stiffest_slope(const Configuration& at, Index e, const SegmentLengths& lengths) const noexcept {
+    if constexpr (requires { Law::is_broken(0.0); })
+      if (is_broken(at, e)) return 0;
+    return description_.law.stiffest_slope(lengths, axial_force(at, e));
+  }
   Vector3 chord(std::span<const double> displacement, Index e) const noexcept {
     return Vector3::Map(&reference_[3 * place(e)]) + difference(displacement, e);
   }
@@ -86,9 +95,19 @@ class PathBatch {
   std::vector<double> lengths_;    ///< m
 };
 
+/// What breaks.
+template <class Batch>
+concept Breaks = requires(const Batch& batch, const Configuration& at) {
+  batch.is_broken(at, Index{});
+};
+
 using BrakeBatch = PathBatch<BrakeLaw>;
 using ElasticPlasticBatch = PathBatch<ElasticPlasticRope>;
+using BreakingCableBatch = PathBatch<Breaking<ElasticRope>>;
+using BreakingElasticPlasticBatch = PathBatch<Breaking<ElasticPlasticRope>>;
 extern template class PathBatch<BrakeLaw>;
 extern template class PathBatch<ElasticPlasticRope>;
+extern template class PathBatch<Breaking<ElasticRope>>;
+extern template class PathBatch<Breaking<ElasticPlasticRope>>;
 
 }  // namespace talus::fem

@@ -14,6 +14,8 @@ struct State {
   std::vector<double> velocity;      ///< m/s, 3 a node; leapfrog: half a step before the displacement's time
   std::vector<double> memory;        ///< of elements: what followed from the steps accepted so far
 
+  std::vector<double> record;  ///< of the largest forces so far (ForceRecord); empty where nobody asks
+
   Configuration configuration() const { return {displacement, memory}; }
   bool operator==(const State&) const = default;
 };

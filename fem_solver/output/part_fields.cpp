@@ -96,6 +96,27 @@ struct PathQuantities {
       {"dissipated_J", [](const Batch& b, At u) { return b.dissipated(u); }}};
 };
 
+/// What breaks; besides, its own memory where it has one.
+template <class Law>
+struct BreakingQuantities {
+  using Batch = PathBatch<Law>;
+  static constexpr core::CellKind kind = core::CellKind::segment;
+  static constexpr CellQuantity<Batch> cells[] = {
+      {"axial_force", "N", [](const Batch& b, At u, Index e) { return b.axial_force(u, e); }},
+      {"elongation", "m", [](const Batch& b, At u, Index e) { return b.elongation(u, e); }},
+      {"broken", "1", [](const Batch& b, At u, Index e) { return b.is_broken(u, e) ? 1.0 : 0.0; }}};
+  static constexpr PartQuantity<Batch> whole[] = {
+      {"axial_force_max_N",
+       [](const Batch& b, At u) { return largest(b, [&](Index e) { return b.axial_force(u, e); }); }},
+      {"broken_1",
+       [](const Batch& b, At u) {
+         double count = 0;
+         for (Index e = 0; e < b.size(); ++e) count += b.is_broken(u, e) ? 1 : 0;
+         return count;
+       }},
+      {"dissipated_J", [](const Batch& b, At u) { return b.dissipated(u); }}};
+};
+
 double larger_principal(const PlaneStress<double>& s) {
   return 0.5 * (s.xx + s.yy) + std::hypot(0.5 * (s.xx - s.yy), s.xy);
 }
@@ -157,6 +178,8 @@ template <>
 struct QuantitiesOf<PenaltySlideBatch> : SlideQuantities {};
 template <class Law>
 struct QuantitiesOf<PathBatch<Law>> : PathQuantities<Law> {};
+template <class Law>
+struct QuantitiesOf<PathBatch<Breaking<Law>>> : BreakingQuantities<Breaking<Law>> {};
 template <class Law>
 struct QuantitiesOf<MembraneBatch<Law>> : MembraneQuantities<Law> {};
 

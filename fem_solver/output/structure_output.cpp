@@ -47,6 +47,14 @@ StructureOutput::StructureOutput(const Model& model, Integrator& integrator, con
   if (clock_) clock_->describe(description_.probes);
   for (const auto& line : ledger_) description_.ledger.push_back(line.description);
   for (const auto& part : model.parts) description_.groups.push_back(group_of(part));
+  if (integrator.state().record.empty()) return;
+  record_tables_ = ForceRecord(model).tables();
+  for (const auto& table : record_tables_)
+    description_.tables.push_back({.name = table.name,
+                                   .columns = table.columns,
+                                   .capacity = std::ssize(table.rows),
+                                   .kind = core::TableKind::distribution,
+                                   .rows = table.rows});
 }
 
 void StructureOutput::choose_ledger_lines() {
@@ -81,6 +89,12 @@ void StructureOutput::fill_probes(std::span<double> values) const {
 void StructureOutput::fill_ledger(std::span<double> joules) const {
   const EnergyBalance balance = integrator_.balance();
   for (std::size_t i = 0; i < ledger_.size(); ++i) joules[i] = ledger_[i].value(balance);
+}
+
+void StructureOutput::fill_table(std::size_t table, std::int64_t first, std::span<double> values) const {
+  const ForceRecord::Table& asked = record_tables_[table];
+  const std::size_t begin = asked.begin + static_cast<std::size_t>(first) * asked.columns.size();
+  std::ranges::copy(std::span(integrator_.state().record).subspan(begin, values.size()), values.begin());
 }
 
 void StructureOutput::fill_positions(std::size_t group, std::span<double> positions) const {

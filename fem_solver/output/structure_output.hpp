@@ -25,6 +25,8 @@ class StructureOutput final : public core::OutputSource {
   void fill_ledger(std::span<double> joules) const override;
   void fill_positions(std::size_t group, std::span<double> positions) const override;
   void fill_field(std::size_t group, std::size_t field, std::span<double> values) const override;
+  std::int64_t table_rows(std::size_t table) const override { return std::ssize(record_tables_[table].rows); }
+  void fill_table(std::size_t table, std::int64_t first, std::span<double> values) const override;
 
  private:
   struct LedgerLine {
@@ -38,6 +40,7 @@ class StructureOutput final : public core::OutputSource {
   const core::StageClock* clock_;
   std::vector<ProbeColumn> probes_;
   std::vector<LedgerLine> ledger_;
+  std::vector<ForceRecord::Table> record_tables_;
   core::OutputDescription description_;
 };
 

@@ -147,7 +147,8 @@ void Builder::add_elements(MeshedPart& part) {
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   const MeshedElements elements{fmt::format("{}: structure.parts.{}", part.scene->place, part.name),
                                 std::move(part.segments), std::move(part.triangles)};
-  model_.parts.push_back({part.name, make_elements(part.scene->element, elements, model_), std::move(nodes)});
+  model_.parts.push_back({part.name, make_elements(part.scene->element, elements, model_), std::move(nodes),
+                          breaking_load_of(part.scene->element)});
 }
 
 std::string label(const char* kind, std::size_t number, const NodeSelection& where) {

@@ -27,6 +27,12 @@ void describe_axial(core::Fields& fields, AxialScene& axial) {
                       {.unit = "Pa",
                        .help = "second Piola-Kirchhoff stress of the reference state, tension positive",
                        .plausible = core::plausible::prestress});
+  fields.optional(
+      "breaking_load", axial.breaking_load,
+      {.unit = "N",
+       .range = core::positive,
+       .help =
+           "known strength, for the utilisation that `output.largest_forces` tells; nothing breaks by it"});
 }
 
 }  // namespace
@@ -34,8 +40,23 @@ void describe_axial(core::Fields& fields, AxialScene& axial) {
 void describe(core::Fields& fields, BarScene& bar) {
   describe_axial(fields, bar);
 }
+void describe(core::Fields& fields, BreaksScene& breaks) {
+  fields.optional(
+      "force", breaks.force,
+      {.unit = "N", .range = core::positive, .help = "axial force above which an element is lost"});
+  fields.optional(
+      "strain", breaks.strain,
+      {.range = core::positive, .help = "change of length over reference length above which it is lost"});
+  fields.optional("work", breaks.work,
+                  {.unit = "J",
+                   .range = core::positive,
+                   .help = "stored and dissipated in an element before it is lost"});
+  fields.rule(breaks.force || breaks.strain || breaks.work, "force",
+              "needs one of `force`, `strain` and `work`");
+}
 void describe(core::Fields& fields, CableScene& cable) {
   describe_axial(fields, cable);
+  fields.section("breaks", cable.breaks, "elements that bear more are lost; none are where absent");
 }
 
 void describe(core::Fields& fields, FrictionAtScene& friction) {
@@ -78,6 +99,7 @@ void describe(core::Fields& fields, ElasticPlasticCableScene& rope) {
                        .range = core::not_negative,
                        .help = "rise of the yield stress over plastic strain",
                        .plausible = core::plausible::strength});
+  fields.section("breaks", rope.breaks, "elements that bear more are lost; none are where absent");
   fields.rule(!(rope.prestress > rope.yield_stress), "prestress",
               fmt::format("must not exceed yield_stress, but is {} Pa", rope.prestress));
 }
@@ -98,6 +120,12 @@ void describe(core::Fields& fields, BrakeScene& brake) {
       {.unit = "m, N", .help = "pairs of elongation and force, from (0, 0); the last one ends the travel"});
   fields.required("mass_per_length", brake.mass_per_length,
                   {.unit = "kg/m", .range = core::positive, .help = "of the reference length"});
+  fields.optional(
+      "breaking_load", brake.breaking_load,
+      {.unit = "N",
+       .range = core::positive,
+       .help =
+           "known strength, for the utilisation that `output.largest_forces` tells; nothing breaks by it"});
   fields.section("end_stop", brake.end_stop,
                  "what happens past the travel; the initial stiffness where absent");
 }

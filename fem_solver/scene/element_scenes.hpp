@@ -14,13 +14,24 @@ namespace talus::fem {
 
 /// Area, density and elastic law of bars and ropes.
 struct AxialScene {
-  double area = 0;            ///< m^2
-  double density = 0;         ///< kg/m^3
-  double youngs_modulus = 0;  ///< Pa
-  double prestress = 0;       ///< Pa, second Piola-Kirchhoff
+  double area = 0;                      ///< m^2
+  double density = 0;                   ///< kg/m^3
+  double youngs_modulus = 0;            ///< Pa
+  double prestress = 0;                 ///< Pa, second Piola-Kirchhoff
+  std::optional<double> breaking_load;  ///< N
 };
+/// What an element bears before it is lost; the first that is exceeded counts.
+struct BreaksScene {
+  std::optional<double> force;   ///< N
+  std::optional<double> strain;  ///< 1
+  std::optional<double> work;    ///< J, of each element
+};
+void describe(core::Fields& fields, BreaksScene& breaks);
+
 struct BarScene : AxialScene {};
-struct CableScene : AxialScene {};
+struct CableScene : AxialScene {
+  std::optional<BreaksScene> breaks;
+};
 void describe(core::Fields& fields, BarScene& bar);
 void describe(core::Fields& fields, CableScene& cable);
 
@@ -45,6 +56,7 @@ void describe(core::Fields& fields, SlidingCableScene& rope);
 struct ElasticPlasticCableScene : AxialScene {
   double yield_stress = 0;  ///< Pa
   double hardening = 0;     ///< Pa
+  std::optional<BreaksScene> breaks;
 };
 void describe(core::Fields& fields, ElasticPlasticCableScene& rope);
 
@@ -58,6 +70,7 @@ void describe(core::Fields& fields, EndStopScene& stop);
 struct BrakeScene {
   std::vector<std::pair<double, double>> table;  ///< elongation (m), force (N)
   double mass_per_length = 0;                    ///< kg/m
+  std::optional<double> breaking_load;           ///< N
   std::optional<EndStopScene> end_stop;          ///< absent: initial stiffness over a twentieth of the travel
 };
 void describe(core::Fields& fields, BrakeScene& brake);

@@ -33,6 +33,13 @@ BrakeLaw brake_law(const BrakeScene& scene) {
                    usual_stop_width * scene.table.back().first});
 }
 
+BreakingLimits limits_of(const BreaksScene& breaks) {
+  constexpr double none = std::numeric_limits<double>::infinity();
+  return {.force = breaks.force.value_or(none),
+          .strain = breaks.strain.value_or(none),
+          .work = breaks.work.value_or(none)};
+}
+
 struct Maker {
   const MeshedElements& elements;
   const Model& model;
@@ -43,6 +50,10 @@ struct Maker {
   }
   ElementBatch operator()(const CableScene& cable) const {
     need_segments("cable");
+    if (cable.breaks)
+      return BreakingCableBatch(
+          {{{axial_part(cable).section}, limits_of(*cable.breaks)}, cable.density * cable.area},
+          elements.segments, model.reference);
     return CableBatch(axial_part(cable), elements.segments, model.reference);
   }
   ElementBatch operator()(const SlidingCableScene& rope) const {
@@ -55,9 +66,12 @@ struct Maker {
   }
   ElementBatch operator()(const ElasticPlasticCableScene& rope) const {
     need_segments("cable");
-    return ElasticPlasticBatch(
-        {{axial_part(rope).section, rope.yield_stress, rope.hardening}, rope.density * rope.area},
-        elements.segments, model.reference);
+    const ElasticPlasticRope law{axial_part(rope).section, rope.yield_stress, rope.hardening};
+    const double mass_per_length = rope.density * rope.area;
+    if (rope.breaks)
+      return BreakingElasticPlasticBatch({{law, limits_of(*rope.breaks)}, mass_per_length}, elements.segments,
+                                         model.reference);
+    return ElasticPlasticBatch({law, mass_per_length}, elements.segments, model.reference);
   }
   ElementBatch operator()(const BrakeScene& brake) const {
     need_segments("brake");
@@ -100,6 +114,19 @@ struct Maker {
 };
 
 }  // namespace
+
+double breaking_load_of(const ElementScene& scene) {
+  return std::visit(
+      [](const auto& element) {
+        std::optional<double> load;
+        if constexpr (requires { element.breaks; })
+          if (element.breaks) load = element.breaks->force;
+        if constexpr (requires { element.breaking_load; })
+          if (element.breaking_load) load = element.breaking_load;
+        return load.value_or(0);
+      },
+      scene);
+}
 
 ElementBatch make_elements(const ElementScene& scene, const MeshedElements& elements, const Model& model) {
   try {

@@ -16,6 +16,9 @@ struct MeshedElements {
   std::vector<std::array<Index, 3>> triangles;
 };
 
+/// N; of the key `breaking_load`, or else of `breaks.force`. 0: not known
+double breaking_load_of(const ElementScene& scene);
+
 /// @throws core::ConfigError naming the key where the shape does not fit the element, or its geometry cannot
 /// be computed with
 ElementBatch make_elements(const ElementScene& scene, const MeshedElements& elements, const Model& model);

@@ -121,3 +121,90 @@ TEST_CASE("tables that no brake can follow are refused with the point at fault")
   CHECK_THROWS_WITH(make({{0.1, 100}, {0.2, -5}}), Contains("-5 N"));
   CHECK_THROWS_WITH(BrakeLaw({{{0.1, 100}}, 0, 0.1}), Contains("end stop"));
 }
+
+namespace {
+
+constexpr double L0 = 2;  // m; of a segment that is pulled apart
+
+/// A segment pulled slowly until it breaks.
+struct Pulled {
+  double length = L0, force = 0, work = 0, history = 0;  ///< of the last step in which it pulls
+  bool broke = false;
+};
+template <class Law>
+Pulled pull_apart(const Breaking<Law>& law, double longest) {
+  constexpr int steps = 100000;
+  Pulled pulled;
+  pulled.force = law.respond({L0, L0}, 0).force;
+  for (int k = 1; k <= steps && !pulled.broke; ++k) {
+    const double length = L0 + longest * k / steps;
+    const AxialResponse response = law.respond({length, L0}, pulled.history);
+    pulled.work += 0.5 * (pulled.force + response.force) * (length - pulled.length);
+    pulled = {length, response.force, pulled.work, response.history, law.is_broken(response.history)};
+  }
+  return pulled;
+}
+
+}  // namespace
+
+TEST_CASE("a segment breaks at its force, strain or work, and pulls no more") {
+  const ElasticRope elastic{{1e-4, 1e11, 1e8}};
+  const double stiffness = 1e-4 * 1e11;  // E A
+  const Pulled by_force = pull_apart(Breaking<ElasticRope>{elastic, {.force = 60e3}}, 0.02);
+  CHECK(by_force.broke);
+  CHECK(by_force.force == Approx(60e3).epsilon(1e-3));
+  const Pulled by_strain = pull_apart(Breaking<ElasticRope>{elastic, {.strain = 0.004}}, 0.02);
+  CHECK(by_strain.broke);
+  CHECK(by_strain.length == Approx(L0 * 1.004).epsilon(1e-6));
+  // Work since slack, where the strain was 1e8/1e11 less: E A L (e + 1e-3)^2/2.
+  const double work = 120;
+  const Pulled by_work = pull_apart(Breaking<ElasticRope>{elastic, {.work = work}}, 0.02);
+  CHECK(by_work.broke);
+  const double q = by_work.length / L0;
+  CHECK(0.5 * (q * q - 1) == Approx(std::sqrt(2 * work / (stiffness * L0)) - 1e-3).epsilon(1e-3));
+  CHECK_FALSE(pull_apart(Breaking<ElasticRope>{elastic, {.force = 1e6}}, 0.02).broke);
+
+  const Breaking<ElasticRope> law{elastic, {.force = 60e3}};
+  const AxialResponse after = law.respond({2 * L0, L0}, by_force.history);
+  CHECK(after.force == 0);
+  CHECK(after.slope == 0);
+  CHECK(after.history == by_force.history);  // broken for good
+}
+
+TEST_CASE(
+    "what a breaking segment has stored and dissipated goes on without a jump, and is the work done on it") {
+  const auto check = [](const auto& law) {
+    const Pulled pulled = pull_apart(law, 0.5);
+    REQUIRE(pulled.broke);
+    const SegmentLengths lengths{pulled.length, L0}, far{2 * L0, L0};
+    const double start = law.stored({L0, L0}, 0);
+    const double before = law.law.stored(lengths, law.law.respond(lengths, 0).history) +
+                          law.law.dissipated(lengths, law.law.respond(lengths, 0).history);
+    const double after = law.stored(lengths, pulled.history) + law.dissipated(lengths, pulled.history);
+    CHECK(after == Approx(before).epsilon(1e-12));
+    CHECK(after - start == Approx(pulled.work).epsilon(1e-4));
+    CHECK(law.stored(far, pulled.history) + law.dissipated(far, pulled.history) == after);
+    CHECK(law.dissipated(lengths, pulled.history) > 0);
+  };
+  check(Breaking<ElasticRope>{{{1e-4, 1e11, 1e8}}, {.force = 60e3}});
+  check(Breaking<ElasticRope>{{{1e-4, 1e11, 0}}, {.strain = 0.003}});
+  check(Breaking<ElasticPlasticRope>{rope, {.strain = 0.05}});
+  check(Breaking<ElasticPlasticRope>{rope, {.work = 2000}});
+}
+
+TEST_CASE("an elastic rope is the cable of the axial element") {
+  Dice dice(64);
+  for (int trial = 0; trial < 200; ++trial) {
+    const AxialSection section{1e-4, dice.decades(1e8, 1e11), dice.uniform(-1e8, 1e8)};
+    const Vector3 reference = dice.vector(2), stretch = dice.vector(0.1);
+    const AxialElement<TensionOnly> cable{reference, 1 / reference.norm(), section};
+    const ElasticRope law{section};
+    const PathSegment<ElasticRope> segment{law, reference.norm()};
+    const Vector3 chord = reference + stretch;
+    const AxialResponse response = segment.respond(chord, 0);
+    const double scale = section.area * section.youngs_modulus;
+    CHECK((segment.force(chord, response) - cable.force(stretch)).norm() < 1e-13 * scale);
+    CHECK((segment.stiffness(chord, response) - cable.stiffness(stretch)).norm() < 1e-11 * scale);
+    CHECK(segment.stored(chord, 0) == Approx(cable.energy(stretch)).margin(1e-13 * scale));
+  }
+}
