@@ -1,7 +1,10 @@
 #include "core/output/checkpoint.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <unistd.h>
+#include <algorithm>
 
 #include <stdexcept>
 
@@ -108,15 +111,16 @@ void CheckpointWriter::commit(const Place& place) {
   replacement.commit(place.durability);
 }
 
-CheckpointReader::CheckpointReader(const std::filesystem::path& path, const std::string& owner)
+CheckpointReader::CheckpointReader(const std::filesystem::path& path, const std::vector<std::string>& owners)
     : path_(path) {
   silence_hdf5();
   file_ = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
   if (file_ < 0) throw ConfigError(fmt::format("{} cannot be read as a checkpoint", path.string()));
   const std::string found = read_owner(file_);
-  if (found == owner) return;
+  if (std::ranges::find(owners, found) != owners.end()) return;
   H5Fclose(file_);
-  throw ConfigError(fmt::format("{} is a checkpoint of '{}', not of '{}'", path.string(), found, owner));
+  throw ConfigError(fmt::format("{} is a checkpoint of '{}', not of '{}'", path.string(), found,
+                                fmt::join(owners, "' or '")));
 }
 
 CheckpointReader::~CheckpointReader() {

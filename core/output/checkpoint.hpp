@@ -56,7 +56,10 @@ class CheckpointWriter final : public StateArchive {
 class CheckpointReader final : public StateArchive {
  public:
   /// @throws ConfigError where the file is missing, no checkpoint, or of another owner
-  CheckpointReader(const std::filesystem::path& path, const std::string& owner);
+  CheckpointReader(const std::filesystem::path& path, const std::string& owner)
+      : CheckpointReader(path, std::vector<std::string>{owner}) {}
+  /// One of several.
+  CheckpointReader(const std::filesystem::path& path, const std::vector<std::string>& owners);
   ~CheckpointReader() override;
   CheckpointReader(const CheckpointReader&) = delete;
   CheckpointReader& operator=(const CheckpointReader&) = delete;

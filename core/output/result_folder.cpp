@@ -18,8 +18,8 @@ namespace fs = std::filesystem;
 
 const std::vector<std::string>& ResultFolder::file_names() {
   static const std::vector<std::string> names{
-      "summary.json",  "probes.csv",           "energy.csv", "fields.h5",  "fields.xdmf",
-      "checkpoint.h5", "checkpoint_before.h5", "log.txt",    "report.html"};
+      "summary.json",  "probes.csv",           "energy.csv", "fields.h5",   "fields.xdmf",
+      "checkpoint.h5", "checkpoint_before.h5", "log.txt",    "report.html", state_file()};
   return names;
 }
 

@@ -24,6 +24,8 @@ class ResultFolder {
 
   /// The names of the files a result may consist of, besides those of its tables, which summary.json lists.
   static const std::vector<std::string>& file_names();
+  /// Of the structure at the end of a run that asks for it.
+  static const char* state_file() { return "structure_state.h5"; }
   /// Whether a file of this name is one that a run writes to before it takes its place.
   static bool is_unfinished(const std::string& name);
   static std::string table_file(const std::string& table) { return table + ".csv"; }

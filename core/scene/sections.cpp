@@ -39,6 +39,7 @@ void describe(Fields& fields, ProbeScene& probe) {
 void describe(Fields&, StageTimesScene&) {}
 
 void describe(Fields&, LargestForcesScene&) {}
+void describe(Fields&, FinalStateScene&) {}
 
 void describe(Fields& fields, EnergyErrorScene& energy_error) {
   fields.with_default(
@@ -66,6 +67,9 @@ void describe(Fields& fields, OutputScene& output) {
       "largest_forces", output.largest_forces,
       "tables of the summary: the largest force of every part and support of the structure over all steps, "
       "and what broke first");
+  fields.section(
+      "final_state", output.final_state,
+      "structure_state.h5, where the structure is at the end, for `structure.start.after` of another scene");
   fields.section("energy_error", output.energy_error_scene,
                  "how far the energy balance may be off, as shares of the energy that the run is about");
 }

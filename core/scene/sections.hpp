@@ -34,6 +34,10 @@ void describe(Fields& fields, ProbeScene& probe);
 struct StageTimesScene {};
 void describe(Fields& fields, StageTimesScene& stage_times);
 
+/// `output.final_state: {}`: the structure's state at the end, for a run that goes on from there.
+struct FinalStateScene {};
+void describe(Fields& fields, FinalStateScene& state);
+
 /// `output.largest_forces: {}`: of parts and supports over all steps, in the summary.
 struct LargestForcesScene {};
 void describe(Fields& fields, LargestForcesScene& forces);
@@ -47,6 +51,7 @@ struct OutputScene {
   std::vector<std::pair<std::string, ProbeScene>> probes;
   std::optional<StageTimesScene> stage_times;
   std::optional<LargestForcesScene> largest_forces;
+  std::optional<FinalStateScene> final_state;
   std::optional<EnergyErrorScene> energy_error_scene;
   EnergyErrorScene energy_error() const { return energy_error_scene.value_or(EnergyErrorScene{}); }
 };

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <variant>
 
+#include "core/output/result_folder.hpp"
 #include "core/output/result_writer.hpp"
 #include "core/program/log.hpp"
 #include "core/program/stop.hpp"
@@ -18,6 +19,7 @@
 #include "coupler/run/reporter.hpp"
 #include "coupler/run/sources.hpp"
 #include "coupler/run/summary.hpp"
+#include "coupler/schemes/commands.hpp"
 #include "coupler/schemes/free_flight.hpp"
 #include "coupler/schemes/uncoupled.hpp"
 
@@ -186,6 +188,16 @@ RunStatus compute_coupled(Session& session, Assembled& parts, Scheme& scheme, Co
       });
 }
 
+/// Where the structure is, for another scene.
+void keep_final_state(PreparedRun& run, const Course& course) {
+  Peer* structure = run.session->find(Role::structure);
+  if (structure == nullptr || !structure->declaration().checkpoints) return;
+  Command command = command_at(course.span.window(course.span.windows()), Action::write_checkpoint);
+  command.path =
+      std::filesystem::absolute(course.checkpoints.folder / core::ResultFolder::state_file()).string();
+  run.session->ask(*structure, command);
+}
+
 RunStatus compute(PreparedRun& run, Assembled& parts, Course& course, nlohmann::json& summary) {
   RunStatus status{};
   if (parts.exchange) {
@@ -207,6 +219,7 @@ RunStatus compute(PreparedRun& run, Assembled& parts, Course& course, nlohmann::
         });
   }
   add_work(summary, *run.session);
+  if (run.scene.output.final_state) keep_final_state(run, course);
   run.session->finish();
   return status;
 }

@@ -107,6 +107,8 @@ core::ExitCode run_standalone(const core::SolverCommand& command) {
   core::Progress progress(command.run.progress, "steps");
   try {
     const bool finished = run_steps(structure, scene, results, progress);
+    if (scene.output.final_state)
+      structure.write_checkpoint(results.folder() / core::ResultFolder::state_file());
     results.finish(finished ? core::RunStatus::finished : core::RunStatus::interrupted,
                    finished ? "" : core::stop_reason());
     return finished ? core::ExitCode::success : core::ExitCode::interrupted;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/output/checkpoint.hpp"
 #include "core/program/log.hpp"
 #include "core/units/units.hpp"
 #include "fem_solver/integration/equilibrium.hpp"
@@ -32,13 +33,34 @@ std::string description(const AddedMass& added) {
                      100 * added.share, added.nodes);
 }
 
+RelaxationOptions options_of(const RelaxationScene& scene) {
+  return {.most_steps = scene.steps, .tolerance = scene.tolerance};
+}
+
+/// Of the same structure at the end of another run, perhaps by another method.
+State state_after(const std::filesystem::path& file, const Model& model) {
+  core::CheckpointReader reader(file, {"fem_solver explicit", "fem_solver implicit", "fem_solver static"});
+  State state = initial_state(model);
+  std::vector<double> reference(model.reference.size());
+  reader.values("reference", reference);
+  if (reference != model.reference)
+    throw core::ConfigError(fmt::format(
+        "structure.start.after.state: {} is of a structure with nodes at other places", file.string()));
+  archive(reader, state);
+  return state;
+}
+
 State start_of(const StructureScene& scene, Assembly& assembly) {
   if (!scene.start) return initial_state(assembly.model());
   if (const auto* newton = std::get_if<EquilibriumScene>(&scene.start->from))
     return equilibrium(assembly.model(), assembly,
                        {.steps = newton->steps, .newton = {.tolerance = newton->tolerance}});
-  const auto& falls = std::get<RelaxationScene>(scene.start->from);
-  return relax(assembly.model(), assembly, {.most_steps = falls.steps, .tolerance = falls.tolerance});
+  if (const auto* falls = std::get_if<RelaxationScene>(&scene.start->from))
+    return relax(assembly.model(), assembly, options_of(*falls), initial_state(assembly.model()));
+  const auto& after = std::get<AfterScene>(scene.start->from);
+  State state = state_after(after.state, assembly.model());
+  if (after.motion == AfterScene::Motion::goes_on) return state;
+  return relax(assembly.model(), assembly, options_of(after), std::move(state));
 }
 
 std::vector<StepBound> bounds_of(const StructureScene& scene, Assembly& assembly, const State& start) {
@@ -193,6 +215,7 @@ void Structure::make_interface(const std::vector<Index>& nodes) {
 void Structure::write_checkpoint(const std::filesystem::path& path) {
   core::CheckpointWriter writer(path, integrator_->method());
   integrator_->archive(writer);
+  writer.values("reference", model_.reference);
   writer.commit();
 }
 

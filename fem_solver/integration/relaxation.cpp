@@ -17,8 +17,8 @@ constexpr std::int64_t steps_between_bounds = 20;  // the stiffness changes as t
 
 class Relaxation {
  public:
-  Relaxation(const Model& model, Assembly& assembly)
-      : model_(model), assembly_(assembly), held_(held_directions(model)), state_(initial_state(model)) {
+  Relaxation(const Model& model, Assembly& assembly, State from)
+      : model_(model), assembly_(assembly), held_(held_directions(model)), state_(std::move(from)) {
     std::ranges::fill(state_.velocity, 0.0);
     force_.resize(state_.displacement.size());
     external_.assign(state_.displacement.size(), 0.0);
@@ -91,8 +91,8 @@ class Relaxation {
 
 }  // namespace
 
-State relax(const Model& model, Assembly& assembly, const RelaxationOptions& options) {
-  return Relaxation(model, assembly).run(options);
+State relax(const Model& model, Assembly& assembly, const RelaxationOptions& options, State from) {
+  return Relaxation(model, assembly, std::move(from)).run(options);
 }
 
 }  // namespace talus::fem

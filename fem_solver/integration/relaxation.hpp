@@ -32,6 +32,8 @@ struct RelaxationOptions {
 /// suddenly.
 /// @throws core::NumericalError where the forces have not died down after most_steps, naming the node that is pulled
 /// most
-State relax(const Model& model, Assembly& assembly, const RelaxationOptions& options);
+/// @param from its displacements and memory are where the structure falls from; the answer has the velocities of the
+/// scene
+State relax(const Model& model, Assembly& assembly, const RelaxationOptions& options, State from);
 
 }  // namespace talus::fem

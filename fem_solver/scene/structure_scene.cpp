@@ -74,13 +74,25 @@ void describe(core::Fields& fields, RelaxationScene& relaxation) {
       {.range = {.low = 1e-14, .high = 1e-2}, .help = "largest force left over the largest force"});
 }
 
+void describe(core::Fields& fields, AfterScene& after) {
+  fields.required(
+      "state", after.state,
+      {.help = "structure_state.h5 of a result of the same structure, which a run writes with `output: "
+               "{final_state: {}}`"});
+  fields.choice("motion", after.motion, {"comes_to_rest", "goes_on"},
+                "whether it falls into place first, as by `relaxation`, or goes on with its velocities");
+  describe(fields, static_cast<RelaxationScene&>(after));
+}
+
 void describe(core::Fields& fields, StartScene& start) {
-  fields.one_of(start.from,
-                {{"equilibrium",
-                  "at rest under weight, prestress, and loads as they are at time 0, by Newton's iteration"},
-                 {"relaxation",
-                  "the same by letting the structure fall into place: also where parts hang slack or have no "
-                  "stiffness"}});
+  fields.one_of(
+      start.from,
+      {{"equilibrium",
+        "at rest under weight, prestress, and loads as they are at time 0, by Newton's iteration"},
+       {"relaxation",
+        "the same by letting the structure fall into place: also where parts hang slack or have no "
+        "stiffness"},
+       {"after", "where another run has left the same structure, for the next impact without repair"}});
 }
 
 namespace {
@@ -111,10 +123,11 @@ void describe(core::Fields& fields, StructureScene& structure) {
   fields.section("damping", structure.damping, "Rayleigh damping of all parts");
   fields.section("start", structure.start,
                  "where the structure is at time 0; as its shapes are written where absent");
-  fields.rule(!structure.start || !constrained_slides(structure) ||
-                  std::holds_alternative<EquilibriumScene>(structure.start->from),
-              "start",
-              "by `relaxation` knows no `slides` with `constraint`: take `equilibrium`, or `penalty`");
+  fields.rule(
+      !structure.start || !constrained_slides(structure) ||
+          std::holds_alternative<EquilibriumScene>(structure.start->from),
+      "start",
+      "by `relaxation` or `after` knows no `slides` with `constraint`: take `equilibrium`, or `penalty`");
   fields.one_of(structure.method,
                 {{"explicit", "central differences; what a scene gets that names no method"},
                  {"implicit", "generalised-alpha method with Newton's iteration"},

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <utility>
@@ -72,9 +73,16 @@ struct RelaxationScene {
 };
 void describe(core::Fields& fields, RelaxationScene& relaxation);
 
+/// Where another run has left the same structure: what has yielded, slipped, run out or broken stays so.
+struct AfterScene : RelaxationScene {
+  std::filesystem::path state;
+  enum class Motion { comes_to_rest, goes_on } motion = Motion::comes_to_rest;
+};
+void describe(core::Fields& fields, AfterScene& after);
+
 /// Where the structure is at time 0; absent: as its shapes are written.
 struct StartScene {
-  std::variant<EquilibriumScene, RelaxationScene> from;
+  std::variant<EquilibriumScene, RelaxationScene, AfterScene> from;
 };
 void describe(core::Fields& fields, StartScene& start);
 
