@@ -111,7 +111,7 @@ void publish_losses(const Structure& structure, const PublishedSurface& publishe
     std::visit(
         [&](const auto& batch) {
           if constexpr (Breaks<std::decay_t<decltype(batch)>>)
-            for (Index e = 0; e < batch.size(); ++e)
+            for (Index e = 0; e < std::ssize(batch.cells()); ++e)
               lost[static_cast<std::size_t>(cells.segment_begin + e)] = batch.is_broken(at, e) ? 1 : 0;
         },
         part.elements);

@@ -95,8 +95,12 @@ void add_effects_of_part(std::vector<StructuralEffect>& effects, const std::stri
   add("elements", "", true);
   if (const auto* sheet = std::get_if<MembraneScene>(&element))
     add("tension field", ".membrane.tension_field", sheet->tension_field.has_value()).limit = compression;
-  const auto* cable = std::get_if<CableScene>(&element);
-  if (cable && cable->breaks) dissipating("breaking", ".cable.breaks");
+  std::visit(
+      [&](const auto& scene) {
+        if constexpr (requires { scene.breaks; })
+          if (scene.breaks) dissipating("breaking", "");
+      },
+      element);
   if (std::holds_alternative<BarScene>(element)) add("slackness", ".cable", false).limit = compression;
   if (const auto* rope = std::get_if<SlidingCableScene>(&element))
     add("friction", ".sliding_cable.friction", rope->has_friction());  // it may hold, without any work

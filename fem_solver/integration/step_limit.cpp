@@ -142,6 +142,10 @@ constexpr const char* kind_of<ElasticPlasticBatch> = "ropes that yield";
 template <>
 constexpr const char* kind_of<BreakingCableBatch> = "cables that break";
 template <>
+constexpr const char* kind_of<BreakingBrakeBatch> = "brakes that break";
+template <>
+constexpr const char* kind_of<BreakingRopeBatch> = "sliding rope that breaks";
+template <>
 constexpr const char* kind_of<BreakingElasticPlasticBatch> = "ropes that yield and break";
 
 std::string formula(double frequency, const Damping& damping) {

@@ -111,6 +111,8 @@ class BrakeLaw {
   double stored(const Lengths& lengths, double history) const noexcept;      ///< J
   double dissipated(const Lengths& lengths, double history) const noexcept;  ///< J
 
+  static double slack_energy(double /*reference*/) noexcept { return 0; }  ///< J
+
   double stiffest_slope(const Lengths& lengths, double force) const noexcept;  ///< N/m
 
   double travel() const noexcept { return description_.table.back().first; }  ///< m, up to the end stop

@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "fem_solver/model/breaking_rope_batch.hpp"
 #include "fem_solver/model/configuration.hpp"
 #include "fem_solver/model/frictional_cable_batch.hpp"
 #include "fem_solver/model/membrane_batch.hpp"
@@ -34,7 +35,8 @@ namespace talus::fem {
 using ElementBatch =
     std::variant<BarBatch, CableBatch, SlidingCableBatch, PlainMembraneBatch, TensionFieldBatch,
                  PrincipalTensionFieldBatch, FrictionalCableBatch, BrakeBatch, ElasticPlasticBatch,
-                 BreakingCableBatch, BreakingElasticPlasticBatch, PenaltySlideBatch>;
+                 BreakingCableBatch, BreakingElasticPlasticBatch, BreakingBrakeBatch, BreakingRopeBatch,
+                 PenaltySlideBatch>;
 
 struct Part {
   std::string name;
@@ -75,6 +77,12 @@ struct InitialVelocity {
   Vector3 velocity = Vector3::Zero();  ///< m/s
 };
 
+/// The same displacement of some nodes at the start.
+struct InitialDisplacement {
+  std::vector<Index> nodes;
+  Vector3 displacement = Vector3::Zero();  ///< m
+};
+
 /// Rayleigh damping C = mass M + stiffness K, with the current tangent K.
 struct Damping {
   double mass = 0;       ///< 1/s
@@ -94,6 +102,7 @@ struct Model {
   std::map<std::string, std::vector<Index>> node_sets;
   std::vector<Support> supports;
   std::vector<NodalLoad> loads;
+  std::vector<InitialDisplacement> initial_displacements;
   std::vector<InitialVelocity> initial_velocities;
   std::vector<ConstrainedSlide> constrained_slides;
   std::optional<Vector3> gravity;  ///< m/s^2

@@ -83,5 +83,6 @@ template class PathBatch<BrakeLaw>;
 template class PathBatch<ElasticPlasticRope>;
 template class PathBatch<Breaking<ElasticRope>>;
 template class PathBatch<Breaking<ElasticPlasticRope>>;
+template class PathBatch<Breaking<BrakeLaw>>;
 
 }  // namespace talus::fem

@@ -105,9 +105,11 @@ using BrakeBatch = PathBatch<BrakeLaw>;
 using ElasticPlasticBatch = PathBatch<ElasticPlasticRope>;
 using BreakingCableBatch = PathBatch<Breaking<ElasticRope>>;
 using BreakingElasticPlasticBatch = PathBatch<Breaking<ElasticPlasticRope>>;
+using BreakingBrakeBatch = PathBatch<Breaking<BrakeLaw>>;
 extern template class PathBatch<BrakeLaw>;
 extern template class PathBatch<ElasticPlasticRope>;
 extern template class PathBatch<Breaking<ElasticRope>>;
 extern template class PathBatch<Breaking<ElasticPlasticRope>>;
+extern template class PathBatch<Breaking<BrakeLaw>>;
 
 }  // namespace talus::fem

@@ -7,6 +7,8 @@ State initial_state(const Model& model) {
               .velocity = std::vector<double>(model.reference.size(), 0.0),
               .memory = initial_memory(model),
               .record = {}};
+  for (const auto& initial : model.initial_displacements)
+    for (const Index node : initial.nodes) Vector3::Map(&state.displacement[3 * node]) = initial.displacement;
   for (const auto& initial : model.initial_velocities)
     for (const Index node : initial.nodes) Vector3::Map(&state.velocity[3 * node]) = initial.velocity;
   return state;

@@ -117,6 +117,19 @@ struct BreakingQuantities {
       {"dissipated_J", [](const Batch& b, At u) { return b.dissipated(u); }}};
 };
 
+struct BreakingRopeQuantities {
+  using Batch = BreakingRopeBatch;
+  static constexpr core::CellKind kind = core::CellKind::segment;
+  static constexpr CellQuantity<Batch> cells[] = {
+      {"axial_force", "N", [](const Batch& b, At u, Index) { return b.axial_force(u); }},
+      {"broken", "1", [](const Batch& b, At u, Index) { return b.is_broken(u) ? 1.0 : 0.0; }}};
+  static constexpr PartQuantity<Batch> whole[] = {
+      {"axial_force_max_N", [](const Batch& b, At u) { return b.axial_force(u); }},
+      {"elongation_m", [](const Batch& b, At u) { return b.elongation(u); }},
+      {"broken_1", [](const Batch& b, At u) { return b.is_broken(u) ? 1.0 : 0.0; }},
+      {"dissipated_J", [](const Batch& b, At u) { return b.dissipated(u); }}};
+};
+
 double larger_principal(const PlaneStress<double>& s) {
   return 0.5 * (s.xx + s.yy) + std::hypot(0.5 * (s.xx - s.yy), s.xy);
 }
@@ -174,6 +187,8 @@ template <>
 struct QuantitiesOf<SlidingCableBatch> : RopeQuantities {};
 template <>
 struct QuantitiesOf<FrictionalCableBatch> : FrictionalRopeQuantities {};
+template <>
+struct QuantitiesOf<BreakingRopeBatch> : BreakingRopeQuantities {};
 template <>
 struct QuantitiesOf<PenaltySlideBatch> : SlideQuantities {};
 template <class Law>

@@ -163,6 +163,11 @@ void Builder::add_conditions() {
                               s.fix.find('z') != std::string::npos},
                     .displacement = s.displacement.value_or(Vector3::Zero()),
                     .history = {s.over_time}};
+    if (s.velocity) {  // so many metres after so many seconds
+      constexpr double long_after = 1e9;
+      support.displacement = *s.velocity;
+      support.history = {{{0, 0}, {long_after, long_after}}};
+    }
     model_.supports.push_back(std::move(support));
   }
   for (const auto& l : scene_.loads)
@@ -171,6 +176,8 @@ void Builder::add_conditions() {
   for (const auto& mass : scene_.point_masses)
     for (const Index node : select_nodes(model_, mass.where))
       model_.node_masses[static_cast<std::size_t>(node)] += mass.mass;
+  for (const auto& initial : scene_.initial_displacements)
+    model_.initial_displacements.push_back({select_nodes(model_, initial.where), initial.displacement});
   for (const auto& initial : scene_.initial_velocities)
     model_.initial_velocities.push_back({select_nodes(model_, initial.where), initial.velocity});
   held_directions(model_);  // which refuses supports that contradict each other

@@ -48,6 +48,12 @@ void describe(core::Fields& fields, SupportScene& support) {
               "must be made of the letters x, y and z, but is '" + support.fix + "'");
   fields.optional("displacement", support.displacement,
                   {.unit = "m", .help = "moves the held directions by this times `over_time`"});
+  fields.optional("velocity", support.velocity,
+                  {.unit = "m/s",
+                   .help = "moves the held directions steadily from time 0 on",
+                   .plausible = core::plausible::velocity});
+  fields.rule(!support.velocity || !support.displacement, "velocity",
+              "contradicts `displacement`: write one of them");
   describe_history(fields, support.over_time);
   fields.rule(support.over_time.empty() || support.displacement, "over_time",
               "needs `displacement` beside it");
@@ -66,6 +72,12 @@ void describe(core::Fields& fields, PointMassScene& mass) {
                    .range = core::positive,
                    .help = "added to each of the nodes",
                    .plausible = core::plausible::rock_mass});
+}
+
+void describe(core::Fields& fields, InitialDisplacementScene& initial) {
+  describe_selection(fields, initial.where);
+  fields.required("displacement", initial.displacement,
+                  {.unit = "m", .help = "of each of the nodes at the start, from its shape"});
 }
 
 void describe(core::Fields& fields, InitialVelocityScene& initial) {

@@ -30,6 +30,7 @@ struct SupportScene {
   NodeSelection where;
   std::string fix;                                   ///< letters of xyz
   std::optional<core::Vector3> displacement;         ///< m
+  std::optional<core::Vector3> velocity;             ///< m/s; from time 0 on
   std::vector<std::pair<double, double>> over_time;  ///< s, factor
 };
 void describe(core::Fields& fields, SupportScene& support);
@@ -46,6 +47,12 @@ struct PointMassScene {
   double mass = 0;  ///< kg on each node
 };
 void describe(core::Fields& fields, PointMassScene& mass);
+
+struct InitialDisplacementScene {
+  NodeSelection where;
+  core::Vector3 displacement = core::Vector3::Zero();  ///< m
+};
+void describe(core::Fields& fields, InitialDisplacementScene& initial);
 
 struct InitialVelocityScene {
   NodeSelection where;

@@ -85,6 +85,8 @@ void describe(core::Fields& fields, SlidingCableScene& rope) {
   fields.list("friction_at", rope.friction_at,
               "nodes with a friction of their own, such as post heads and shackles; later entries count over "
               "earlier ones");
+  fields.section("breaks", rope.breaks, "a rope that bears more is lost as a whole; it is not where absent");
+  fields.rule(!rope.breaks || !rope.has_friction(), "breaks", "is not known yet for ropes with friction");
 }
 
 void describe(core::Fields& fields, ElasticPlasticCableScene& rope) {
@@ -128,6 +130,7 @@ void describe(core::Fields& fields, BrakeScene& brake) {
            "known strength, for the utilisation that `output.largest_forces` tells; nothing breaks by it"});
   fields.section("end_stop", brake.end_stop,
                  "what happens past the travel; the initial stiffness where absent");
+  fields.section("breaks", brake.breaks, "brakes that bear more are lost; none are where absent");
 }
 
 void describe(core::Fields& fields, IsotropicSheet& sheet) {

@@ -48,6 +48,7 @@ struct SlidingCableScene : AxialScene {
   std::optional<double> slider_size;  ///< m
   std::optional<double> friction;  ///< mu of the capstan equation, at nodes that `friction_at` does not name
   std::vector<FrictionAtScene> friction_at;
+  std::optional<BreaksScene> breaks;
   bool has_friction() const { return friction || !friction_at.empty(); }
 };
 void describe(core::Fields& fields, SlidingCableScene& rope);
@@ -72,6 +73,7 @@ struct BrakeScene {
   double mass_per_length = 0;                    ///< kg/m
   std::optional<double> breaking_load;           ///< N
   std::optional<EndStopScene> end_stop;          ///< absent: initial stiffness over a twentieth of the travel
+  std::optional<BreaksScene> breaks;
 };
 void describe(core::Fields& fields, BrakeScene& brake);
 

@@ -61,8 +61,10 @@ struct Maker {
     if (rope.has_friction())
       return FrictionalCableBatch({axial_part(rope), friction_of(rope), rope.slider_size.value_or(0)},
                                   elements.segments, model.reference);
-    return SlidingCableBatch(axial_part(rope), rope.slider_size.value_or(0), elements.segments,
-                             model.reference);
+    SlidingCableBatch cable(axial_part(rope), rope.slider_size.value_or(0), elements.segments,
+                            model.reference);
+    if (rope.breaks) return BreakingRopeBatch(std::move(cable), limits_of(*rope.breaks));
+    return cable;
   }
   ElementBatch operator()(const ElasticPlasticCableScene& rope) const {
     need_segments("cable");
@@ -75,6 +77,9 @@ struct Maker {
   }
   ElementBatch operator()(const BrakeScene& brake) const {
     need_segments("brake");
+    if (brake.breaks)
+      return BreakingBrakeBatch({{brake_law(brake), limits_of(*brake.breaks)}, brake.mass_per_length},
+                                elements.segments, model.reference);
     return BrakeBatch({brake_law(brake), brake.mass_per_length}, elements.segments, model.reference);
   }
   ElementBatch operator()(const MembraneScene& membrane) const {

@@ -116,6 +116,7 @@ void describe(core::Fields& fields, StructureScene& structure) {
   fields.list("supports", structure.supports, "nodes whose motion is given");
   fields.list("loads", structure.loads, "forces on nodes");
   fields.list("point_masses", structure.point_masses, "masses on nodes");
+  fields.list("initial_displacements", structure.initial_displacements, "where nodes are at the start");
   fields.list("initial_velocities", structure.initial_velocities, "velocities of nodes at the start");
   fields.optional(
       "gravity", structure.gravity,
@@ -128,6 +129,8 @@ void describe(core::Fields& fields, StructureScene& structure) {
           std::holds_alternative<EquilibriumScene>(structure.start->from),
       "start",
       "by `relaxation` or `after` knows no `slides` with `constraint`: take `equilibrium`, or `penalty`");
+  fields.rule(!structure.start || structure.initial_displacements.empty(), "initial_displacements",
+              "contradict `start`, which finds where the nodes are");
   fields.one_of(structure.method,
                 {{"explicit", "central differences; what a scene gets that names no method"},
                  {"implicit", "generalised-alpha method with Newton's iteration"},

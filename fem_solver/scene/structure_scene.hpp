@@ -103,6 +103,7 @@ struct StructureScene {
   std::vector<SupportScene> supports;
   std::vector<LoadScene> loads;
   std::vector<PointMassScene> point_masses;
+  std::vector<InitialDisplacementScene> initial_displacements;
   std::vector<InitialVelocityScene> initial_velocities;
   std::optional<StartScene> start;
   MethodScene method;
