@@ -2,10 +2,9 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-
 #include <unistd.h>
-#include <algorithm>
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "core/errors.hpp"

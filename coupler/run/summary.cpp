@@ -71,6 +71,11 @@ std::string words_about_strength(const json& tables) {
     words +=
         fmt::format("  most used        {}: {:.0f} % of its breaking load\n", most.second, 100 * most.first);
   }
+  if (const auto pressed = tables.find("buckling"); pressed != tables.end())
+    for (const auto& [part, row] : pressed->items())
+      if (row.at("utilisation") >= 1)
+        words += fmt::format("  would buckle     {}: {:.0f} % of the load at which a hinged one does\n", part,
+                             100 * row.at("utilisation").get<double>());
   if (const auto ruptures = tables.find("ruptures"); ruptures != tables.end())
     for (const auto& [part, row] : ruptures->items())
       if (row.at("broken") > 0)

@@ -68,6 +68,7 @@ void Exchange::restore_states(const Window& window) {
 void Exchange::take_back(const Window& window) {
   restore_states(window);
   std::ranges::copy(force_start_, particles_.force.begin());
+  losses_to_boundary();
 }
 
 bool Exchange::touching() const {

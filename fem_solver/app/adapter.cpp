@@ -219,9 +219,9 @@ void serve_structure(const core::SceneFile& file, coupler::Participant& particip
   const StructuralScene scene = read_structural_scene(file);
   refuse_static(file, scene);
   Structure structure(scene);
-  const std::span<const double> start = scene.structure.start
-                                            ? std::span<const double>(structure.start().displacement)
-                                            : std::span<const double>();
+  const bool displaced = scene.structure.start || !scene.structure.initial_displacements.empty();
+  const std::span<const double> start =
+      displaced ? std::span<const double>(structure.start().displacement) : std::span<const double>();
   const PublishedSurface published = published_surface(structure.model(), interface_parts(file), start);
   structure.make_interface(published.nodes);
   participant.publish_surface(published.surface, published.masses);

@@ -61,6 +61,7 @@ bool ExplicitSolver::starts_in_balance(double time, double step) noexcept {
   const auto is_zero = [](double value) { return value == 0; };
   if (state_.steps > 0 || !std::ranges::all_of(state_.velocity, is_zero)) return false;
   if (std::ranges::any_of(model_.supports, &Support::moves)) return false;
+  if (!model_.gravity_history.points.empty()) return false;
   if (!std::ranges::all_of(model_.loads, [](const auto& load) { return load.history.points.empty(); }))
     return false;
   state_.kick = 0.5 * step;

@@ -35,7 +35,8 @@ struct ExplicitState : State {
     double pending = 0;  ///< J; of the half step behind it
     bool operator==(const Work&) const = default;
   };
-  std::array<Work, 5> works;  ///< by loads, supports, the interface, stiffness damping, slides
+  std::array<Work, 6>
+      works;  ///< by loads, supports, the interface, stiffness damping, changing gravity, slides
   bool operator==(const ExplicitState&) const = default;
 };
 
@@ -131,8 +132,15 @@ class ExplicitSolver final : public Integrator {
   void damp_sliding_nodes(double step) noexcept;
   /// Takes sliders back to their ropes after a free step.
   void hold_slides(double time, double step);
-  enum WorkLine : std::size_t { by_loads, by_supports, by_interface, by_stiffness_damping, by_slides };
-  using Powers = std::array<double, 4>;  ///< of what is known before the step
+  enum WorkLine : std::size_t {
+    by_loads,
+    by_supports,
+    by_interface,
+    by_stiffness_damping,
+    by_gravity,
+    by_slides
+  };
+  using Powers = std::array<double, by_slides>;  ///< of what is known before the step
   Powers powers(double time) const noexcept;
   double power_of_supports() const noexcept;
   void arrive(double time) noexcept;

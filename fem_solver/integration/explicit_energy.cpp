@@ -32,6 +32,11 @@ ExplicitSolver::Powers ExplicitSolver::powers(double time) const noexcept {
   interface_.for_each([&](Index node, const auto& on_node) {
     power[by_interface] += on_node.dot(Vector3::Map(&state_.velocity[3 * node]));
   });
+  if (!model_.gravity_history.points.empty() && model_.gravity) {
+    const Vector3 gravity = model_.gravity_history.at(time) * *model_.gravity;
+    for (Index node = 0; node < model_.nodes(); ++node)
+      power[by_gravity] += model_.node_masses[node] * gravity.dot(Vector3::Map(&state_.velocity[3 * node]));
+  }
   for (std::size_t i = 0; i < damping_force_.size(); ++i)
     power[by_stiffness_damping] += damping_force_[i] * state_.velocity[i];
   return power;
@@ -71,7 +76,8 @@ EnergyBalance ExplicitSolver::balance_at_evaluation() const {
   const Configuration at(displacement, state_.memory);
   balance.elastic = elastic_by_parts(model_, at);
   balance.dissipated = dissipated_by_parts(model_, at);
-  if (model_.gravity) {
+  balance.gravity = -state_.works[by_gravity].done;  // what changes has no potential
+  if (model_.gravity && model_.gravity_history.points.empty()) {
     for (Index node = 0; node < model_.nodes(); ++node)
       balance.gravity -=
           model_.node_masses[node] * model_.gravity->dot(Vector3::Map(&displacement[3 * node]));

@@ -7,7 +7,7 @@ namespace talus::fem {
 void add_external_force(const Model& model, const InterfaceForce& interface, const LoadTime& when,
                         std::span<double> force) noexcept {
   if (model.gravity) {
-    const Vector3 gravity = when.ramp * *model.gravity;
+    const Vector3 gravity = load_factor(model.gravity_history, when) * *model.gravity;
     core::parallel_for(model.nodes(), [&](std::int64_t node) {
       Vector3::Map(&force[3 * node]) += model.node_masses[node] * gravity;
     });
@@ -23,7 +23,9 @@ void add_works(const Model& model, const InterfaceForce& interface, const LoadSp
                std::span<const double> change, ExternalWorks& works) noexcept {
   const auto move_of = [&](Index node) { return Vector3::Map(&change[3 * static_cast<std::size_t>(node)]); };
   if (model.gravity) {
-    const Vector3 gravity = 0.5 * (span.before.ramp + span.after.ramp) * *model.gravity;
+    const double factor = 0.5 * (load_factor(model.gravity_history, span.before) +
+                                 load_factor(model.gravity_history, span.after));
+    const Vector3 gravity = factor * *model.gravity;
     for (Index node = 0; node < model.nodes(); ++node)
       works.gravity += model.node_masses[node] * gravity.dot(move_of(node));
   }

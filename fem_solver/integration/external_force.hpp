@@ -11,7 +11,7 @@ namespace talus::fem {
 /// When loads are evaluated.
 struct LoadTime {
   double time = 0;  ///< s
-  double ramp = 1;  ///< factor on gravity, and on loads and prescribed motion without a table of their own
+  double ramp = 1;  ///< factor on gravity, loads and prescribed motion without a table of their own
 };
 
 /// The factor of a load or a prescribed motion.

@@ -9,6 +9,7 @@ namespace {
 /// Columns of `largest_forces` and `support_forces`, as places in a row.
 enum ForceColumn : std::size_t { tension, tension_time, compression, compression_time, force_columns };
 enum SupportColumn : std::size_t { magnitude, along_x, along_y, along_z, support_time, support_columns };
+/// Of `utilisation` and `buckling`.
 enum UsedColumn : std::size_t { used_force, breaking_load, utilisation, used_columns };
 enum RuptureColumn : std::size_t {
   broken,
@@ -90,7 +91,8 @@ ForceRecord::ForceRecord(const Model& model)
           {"broken", "first_element", "first_time_s", "first_force_N", "first_x_m", "first_y_m", "first_z_m"},
           {},
           0},
-      utilisation_{"utilisation", {"force_N", "breaking_load_N", "utilisation"}, {}, 0} {
+      utilisation_{"utilisation", {"force_N", "breaking_load_N", "utilisation"}, {}, 0},
+      buckling_{"buckling", {"compression_N", "buckling_load_N", "utilisation"}, {}, 0} {
   for (std::size_t p = 0; p < model.parts.size(); ++p)
     std::visit(
         [&](const auto& batch) {
@@ -99,22 +101,25 @@ ForceRecord::ForceRecord(const Model& model)
           if constexpr (Breaks<Batch>) ruptures_.rows.push_back(model.parts[p].name);
         },
         model.parts[p].elements);
-  for (const Part& part : model.parts)
+  for (const Part& part : model.parts) {
     if (part.breaking_load > 0) utilisation_.rows.push_back(part.name);
+    if (part.buckling_load > 0) buckling_.rows.push_back(part.name);
+  }
   for (const Support& support : model.supports)
     supports_.rows.push_back(new_name(support.name, supports_.rows));
   supports_.begin = forces_.values();
   ruptures_.begin = supports_.begin + supports_.values();
   utilisation_.begin = ruptures_.begin + ruptures_.values();
+  buckling_.begin = utilisation_.begin + utilisation_.values();
 }
 
 std::vector<double> ForceRecord::begin() const {
-  return std::vector<double>(utilisation_.begin + utilisation_.values(), 0.0);
+  return std::vector<double>(buckling_.begin + buckling_.values(), 0.0);
 }
 
 void ForceRecord::note_elements(double time, const Configuration& at, std::span<const double> next,
                                 std::span<double> record) const {
-  std::size_t force_row = 0, rupture_row = 0, used_row = 0, memory = 0;
+  std::size_t force_row = 0, rupture_row = 0, used_row = 0, pressed_row = 0, memory = 0;
   for_each_part(model_, at, [&](std::size_t p, const auto& batch, const Configuration& own) {
     using Batch = std::decay_t<decltype(batch)>;
     const std::size_t remembered = memory_size_of(batch);
@@ -124,12 +129,17 @@ void ForceRecord::note_elements(double time, const Configuration& at, std::span<
         keep_largest(force, time, row[tension], row[tension_time]);
         keep_largest(-force, time, row[compression], row[compression_time]);
       });
-      if (const double load = model_.parts[p].breaking_load; load > 0) {
-        double* used = &record[utilisation_.begin + used_columns * used_row++];
-        used[used_force] = std::max(row[tension], row[compression]);
+      const auto use = [&](double force, double load, double* used) {
+        used[used_force] = force;
         used[breaking_load] = load;
-        used[utilisation] = used[used_force] / load;
-      }
+        used[utilisation] = force / load;
+      };
+      const Part& part = model_.parts[p];
+      if (part.breaking_load > 0)
+        use(std::max(row[tension], row[compression]), part.breaking_load,
+            &record[utilisation_.begin + used_columns * used_row++]);
+      if (part.buckling_load > 0)
+        use(row[compression], part.buckling_load, &record[buckling_.begin + used_columns * pressed_row++]);
     }
     if constexpr (Breaks<Batch>)
       note_ruptures(model_, batch, time, own, {own.displacement, next.subspan(memory, remembered)},
@@ -158,7 +168,7 @@ void ForceRecord::note_supports(double time, std::span<const double> reactions,
 
 std::vector<ForceRecord::Table> ForceRecord::tables() const {
   std::vector<Table> tables;
-  for (const Table* table : {&forces_, &supports_, &ruptures_, &utilisation_})
+  for (const Table* table : {&forces_, &supports_, &ruptures_, &utilisation_, &buckling_})
     if (!table->rows.empty()) tables.push_back(*table);
   return tables;
 }

@@ -32,12 +32,13 @@ class ForceRecord {
     std::size_t values() const { return rows.size() * columns.size(); }
   };
   /// `largest_forces` of the parts with an axial force, `support_forces`, `ruptures` of the parts that break, and
-  /// `utilisation` of those whose breaking load is known; tables without rows are left out.
+  /// `utilisation` of those whose breaking load is known and `buckling` of bars whose section is; tables without rows are
+  /// left out.
   std::vector<Table> tables() const;
 
  private:
   const Model& model_;
-  Table forces_, supports_, ruptures_, utilisation_;
+  Table forces_, supports_, ruptures_, utilisation_, buckling_;
 };
 
 }  // namespace talus::fem

@@ -12,7 +12,7 @@
 namespace talus::fem {
 namespace {
 
-constexpr double damping = 0.7;
+constexpr double local_damping = 0.7;
 constexpr std::int64_t steps_between_bounds = 20;  // the stiffness changes as the structure falls into place
 
 class Relaxation {
@@ -57,7 +57,7 @@ class Relaxation {
   void step() {
     for (std::size_t i = 0; i < force_.size(); ++i) {
       double& way = state_.velocity[i];
-      const double brake = way == 0 ? 0 : std::copysign(damping * std::abs(force_[i]), way);
+      const double brake = way == 0 ? 0 : std::copysign(local_damping * std::abs(force_[i]), way);
       if (masses_[i / 3] > 0) way += (force_[i] - brake) / masses_[i / 3];
       state_.displacement[i] += way;
     }
@@ -65,13 +65,14 @@ class Relaxation {
   [[noreturn]] void report_failure(const RelaxationOptions& options) const {
     fail(fmt::format(
              "the structure has not come to rest within {} steps; more `steps`, or something to hold it, may "
-             "help: the largest force left over the largest force is",
+             "help",
              options.most_steps),
          left_);
   }
   [[noreturn]] void fail(const std::string& what, double value) const {
-    throw core::NumericalError({.what = "structure.start.relaxation: " + what,
-                                .entity = "on " + node_name(model_, static_cast<Index>(worst_ / 3)),
+    throw core::NumericalError({.what = "structure.start: " + what,
+                                .entity = "force left over the largest force, on " +
+                                          node_name(model_, static_cast<Index>(worst_ / 3)),
                                 .step = -1,
                                 .time = 0,
                                 .value = value,

@@ -141,6 +141,8 @@ template <>
 constexpr const char* kind_of<ElasticPlasticBatch> = "ropes that yield";
 template <>
 constexpr const char* kind_of<BreakingCableBatch> = "cables that break";
+template <std::size_t nodes>
+constexpr const char* kind_of<UserBatch<nodes>> = "elements of this program";
 template <>
 constexpr const char* kind_of<BreakingBrakeBatch> = "brakes that break";
 template <>

@@ -16,6 +16,7 @@
 #include "fem_solver/model/penalty_slide_batch.hpp"
 #include "fem_solver/model/rope_batch.hpp"
 #include "fem_solver/model/two_node_batch.hpp"
+#include "fem_solver/model/user_batch.hpp"
 
 /// The structure as arrays: what the scene describes, free of YAML, time integration and output.
 namespace talus::fem {
@@ -36,13 +37,14 @@ using ElementBatch =
     std::variant<BarBatch, CableBatch, SlidingCableBatch, PlainMembraneBatch, TensionFieldBatch,
                  PrincipalTensionFieldBatch, FrictionalCableBatch, BrakeBatch, ElasticPlasticBatch,
                  BreakingCableBatch, BreakingElasticPlasticBatch, BreakingBrakeBatch, BreakingRopeBatch,
-                 PenaltySlideBatch>;
+                 PenaltySlideBatch, UserLineBatch, UserTriangleBatch>;
 
 struct Part {
   std::string name;
   ElementBatch elements;
   std::vector<Index> nodes;  ///< that its elements touch, ascending
   double breaking_load = 0;  ///< N; 0: not known
+  double buckling_load = 0;  ///< N; of its longest element by Euler; 0: not known
 };
 
 /// A factor over time, linear between its points and constant beyond them; empty: 1.
@@ -105,7 +107,8 @@ struct Model {
   std::vector<InitialDisplacement> initial_displacements;
   std::vector<InitialVelocity> initial_velocities;
   std::vector<ConstrainedSlide> constrained_slides;
-  std::optional<Vector3> gravity;  ///< m/s^2
+  std::optional<Vector3> gravity;  ///< m/s^2; times `gravity_history`
+  TimeTable gravity_history;
   Damping damping;
 
   Index nodes() const { return static_cast<Index>(reference.size() / 3); }

@@ -65,8 +65,9 @@ class PathBatch {
     return chord(at.displacement, e).norm() - lengths_[place(e)];
   }
   /// Whether it has broken in a step accepted before.
-  bool is_broken(const Configuration& at, Index e) const noexcept requires requires { Law::is_broken(0.0); }
-  { return Law::is_broken(kept(at, e)); }
+  template <class Own = Law>
+  requires requires { Own::is_broken(0.0); }
+  bool is_broken(const Configuration& at, Index e) const noexcept { return Own::is_broken(kept(at, e)); }
   /// Largest elongation of a brake (m), plastic strain of a rope (1); of the steps accepted.
   double kept(const Configuration& at, Index e) const noexcept {
     return at.memory.empty() ? 0 : at.memory[place(e)];

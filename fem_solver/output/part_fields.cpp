@@ -130,6 +130,16 @@ struct BreakingRopeQuantities {
       {"dissipated_J", [](const Batch& b, At u) { return b.dissipated(u); }}};
 };
 
+template <std::size_t nodes>
+struct UserQuantities {
+  using Batch = UserBatch<nodes>;
+  static constexpr core::CellKind kind = nodes == 2 ? core::CellKind::segment : core::CellKind::triangle;
+  static constexpr CellQuantity<Batch> cells[] = {
+      {"energy", "J", [](const Batch& b, At u, Index e) { return b.energy(u, e); }}};
+  static constexpr PartQuantity<Batch> whole[] = {
+      {"energy_J", [](const Batch& b, At u) { return b.energy(u); }}};
+};
+
 double larger_principal(const PlaneStress<double>& s) {
   return 0.5 * (s.xx + s.yy) + std::hypot(0.5 * (s.xx - s.yy), s.xy);
 }
@@ -189,6 +199,8 @@ template <>
 struct QuantitiesOf<FrictionalCableBatch> : FrictionalRopeQuantities {};
 template <>
 struct QuantitiesOf<BreakingRopeBatch> : BreakingRopeQuantities {};
+template <std::size_t nodes>
+struct QuantitiesOf<UserBatch<nodes>> : UserQuantities<nodes> {};
 template <>
 struct QuantitiesOf<PenaltySlideBatch> : SlideQuantities {};
 template <class Law>

@@ -1,13 +1,16 @@
 #include "fem_solver/scene/build_model.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
 #include "core/errors.hpp"
+#include "core/program/log.hpp"
 #include "fem_solver/constraints/held_directions.hpp"
 #include "fem_solver/scene/make_elements.hpp"
 #include "fem_solver/scene/node_sets.hpp"
+#include "fem_solver/scene/unheld_parts.hpp"
 #include "fem_solver/scene/weld.hpp"
 #include "interface_mesh/surface_checks.hpp"
 
@@ -29,16 +32,23 @@ class Builder {
   Model build() {
     mesh_parts();
     if (scene_.weld) weld();
-    for (const auto& [name, selection] : scene_.node_sets)
+    for (const auto& [name, selection] : scene_.node_sets) {
+      if (model_.node_sets.contains(name))
+        throw core::ConfigError(fmt::format(
+            "{}: structure.node_sets.{}: a part has this name, or gives it to nodes of its own; take another",
+            selection.place, name));
       model_.node_sets[name] = select_nodes(model_, selection);
+    }
     for (const auto& part : scene_.parts)
       if (const auto* through = std::get_if<ThroughScene>(&part.second.shape))
         lead_through(part.first, part.second, *through);
+    put_sliders_on_ropes();
     for (auto& part : parts_) add_elements(part);
     for (const auto& slide : scene_.slides) add_slide(slide, model_);
     lump_masses(model_);
     add_conditions();
     check_masses();
+    warn_of_unheld_parts();
     return std::move(model_);
   }
 
@@ -48,9 +58,11 @@ class Builder {
   void weld();
   void lead_through(const std::string& name, const PartScene& part, const ThroughScene& through);
   Index add_node(const Vector3& position);
+  void put_sliders_on_ropes();
   void add_elements(MeshedPart& part);
   void add_conditions();
   void check_masses() const;
+  void warn_of_unheld_parts() const;
 
   const StructureScene& scene_;
   Model model_;
@@ -116,6 +128,17 @@ Index Builder::add_node(const Vector3& position) {
   return model_.nodes() - 1;
 }
 
+void Builder::put_sliders_on_ropes() {
+  for (const auto& slide : scene_.slides) {
+    const auto rope = std::ranges::find(parts_, slide.second.rope, &MeshedPart::name);
+    if (rope == parts_.end()) continue;  // which add_slide() refuses
+    try {
+      put_on_rope(slide, rope->segments, model_);
+    } catch (const core::ConfigError&) {  // a rope that is no line: add_slide() says it with the key
+    }
+  }
+}
+
 void Builder::lead_through(const std::string& name, const PartScene& part, const ThroughScene& through) {
   std::vector<Index> nodes;
   if (through.from) nodes.push_back(add_node(*through.from));
@@ -148,7 +171,9 @@ void Builder::add_elements(MeshedPart& part) {
   const MeshedElements elements{fmt::format("{}: structure.parts.{}", part.scene->place, part.name),
                                 std::move(part.segments), std::move(part.triangles)};
   model_.parts.push_back({part.name, make_elements(part.scene->element, elements, model_), std::move(nodes),
-                          breaking_load_of(part.scene->element)});
+                          breaking_load_of(part.scene->element), 0});
+  Part& made = model_.parts.back();
+  made.buckling_load = buckling_load_of(part.scene->element, made.elements);
 }
 
 std::string label(const char* kind, std::size_t number, const NodeSelection& where) {
@@ -182,6 +207,7 @@ void Builder::add_conditions() {
     model_.initial_velocities.push_back({select_nodes(model_, initial.where), initial.velocity});
   held_directions(model_);  // which refuses supports that contradict each other
   model_.gravity = scene_.gravity;
+  model_.gravity_history = {scene_.gravity_over_time};
   if (scene_.damping) model_.damping = {.mass = scene_.damping->mass, .stiffness = scene_.damping->stiffness};
 }
 
@@ -190,6 +216,12 @@ void Builder::check_masses() const {
   if (found == model_.node_masses.end()) return;
   const auto node = static_cast<Index>(found - model_.node_masses.begin());
   throw core::ConfigError("structure: no element is connected to " + node_name(model_, node));
+}
+
+void Builder::warn_of_unheld_parts() const {
+  for (const auto& parts : unheld_parts(model_))
+    core::log_warning(
+        fmt::format("structure: nothing holds {}: it falls or floats freely", fmt::join(parts, ", ")));
 }
 
 }  // namespace

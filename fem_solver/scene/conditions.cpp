@@ -5,19 +5,16 @@
 #include "core/scene/plausible.hpp"
 
 namespace talus::fem {
-namespace {
 
-void describe_history(core::Fields& fields, std::vector<std::pair<double, double>>& points) {
+void describe_history(core::Fields& fields, const char* key, std::vector<std::pair<double, double>>& points) {
   fields.with_default(
-      "over_time", points,
+      key, points,
       {.unit = "s, ", .help = "pairs of time and factor, linear in between; 1 throughout where absent"});
   fields.rule(std::ranges::is_sorted(points, std::ranges::less_equal{}, &std::pair<double, double>::first) ||
                   std::ranges::adjacent_find(points, std::ranges::greater_equal{},
                                              &std::pair<double, double>::first) == points.end(),
-              "over_time", "needs times that increase");
+              key, "needs times that increase");
 }
-
-}  // namespace
 
 void describe(core::Fields& fields, BoxScene& box) {
   fields.required("low", box.low, {.unit = "m", .help = "the corner with the smallest coordinates"});
@@ -54,7 +51,7 @@ void describe(core::Fields& fields, SupportScene& support) {
                    .plausible = core::plausible::velocity});
   fields.rule(!support.velocity || !support.displacement, "velocity",
               "contradicts `displacement`: write one of them");
-  describe_history(fields, support.over_time);
+  describe_history(fields, "over_time", support.over_time);
   fields.rule(support.over_time.empty() || support.displacement, "over_time",
               "needs `displacement` beside it");
 }
@@ -62,7 +59,7 @@ void describe(core::Fields& fields, SupportScene& support) {
 void describe(core::Fields& fields, LoadScene& load) {
   describe_selection(fields, load.where);
   fields.required("force", load.force, {.unit = "N", .help = "force on each of the nodes"});
-  describe_history(fields, load.over_time);
+  describe_history(fields, "over_time", load.over_time);
 }
 
 void describe(core::Fields& fields, PointMassScene& mass) {

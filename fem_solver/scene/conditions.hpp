@@ -10,6 +10,9 @@
 /// What the scene says about nodes: which ones, held or moved how, loaded and weighed by what.
 namespace talus::fem {
 
+/// A table of factors over time, under `key`.
+void describe_history(core::Fields& fields, const char* key, std::vector<std::pair<double, double>>& points);
+
 struct BoxScene {
   core::Vector3 low = core::Vector3::Zero();   ///< m
   core::Vector3 high = core::Vector3::Zero();  ///< m

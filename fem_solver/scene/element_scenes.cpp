@@ -39,6 +39,13 @@ void describe_axial(core::Fields& fields, AxialScene& axial) {
 
 void describe(core::Fields& fields, BarScene& bar) {
   describe_axial(fields, bar);
+  fields.optional(
+      "second_moment", bar.second_moment,
+      {.unit = "m^4",
+       .range = core::positive,
+       .help =
+           "of the section about its weak axis: `output.largest_forces` then compares the compression "
+           "with the load at which an element that is hinged at both ends buckles; nothing buckles by it"});
 }
 void describe(core::Fields& fields, BreaksScene& breaks) {
   fields.optional(
@@ -246,13 +253,20 @@ void describe(core::Fields& fields, MembraneScene& membrane) {
                           what));
 }
 
+void describe(core::Fields& fields, UserElementScene& element) {
+  fields.required("name", element.name, {.help = "under which the program knows it"});
+  fields.with_default("parameters", element.parameters, {.help = "numbers that it is made with"});
+}
+
 void describe_element(core::Fields& fields, ElementScene& element) {
-  fields.one_of(element, {{"bar", "carries tension and compression"},
-                          {"cable", "carries tension only"},
-                          {"sliding_cable", "one rope that runs through all its nodes, tension only"},
-                          {"elastic_plastic_cable", "carries tension only, yields and hardens"},
-                          {"brake", "force over elongation from a table, plastic, with an end stop"},
-                          {"membrane", "a homogenised net or sheet of triangles in plane stress"}});
+  fields.one_of(element,
+                {{"bar", "carries tension and compression"},
+                 {"cable", "carries tension only"},
+                 {"sliding_cable", "one rope that runs through all its nodes, tension only"},
+                 {"elastic_plastic_cable", "carries tension only, yields and hardens"},
+                 {"brake", "force over elongation from a table, plastic, with an end stop"},
+                 {"membrane", "a homogenised net or sheet of triangles in plane stress"},
+                 {"user_element", "one that a program of its own has (docs/extending_structure.md)"}});
 }
 
 }  // namespace talus::fem

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -28,7 +29,9 @@ struct BreaksScene {
 };
 void describe(core::Fields& fields, BreaksScene& breaks);
 
-struct BarScene : AxialScene {};
+struct BarScene : AxialScene {
+  std::optional<double> second_moment;  ///< m^4
+};
 struct CableScene : AxialScene {
   std::optional<BreaksScene> breaks;
 };
@@ -106,8 +109,15 @@ struct MembraneScene {
 };
 void describe(core::Fields& fields, MembraneScene& membrane);
 
+/// An element that the program has brought along.
+struct UserElementScene {
+  std::string name;
+  std::vector<double> parameters;
+};
+void describe(core::Fields& fields, UserElementScene& element);
+
 using ElementScene = std::variant<BarScene, CableScene, SlidingCableScene, ElasticPlasticCableScene,
-                                  BrakeScene, MembraneScene>;
+                                  BrakeScene, MembraneScene, UserElementScene>;
 void describe_element(core::Fields& fields, ElementScene& element);
 
 }  // namespace talus::fem

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numbers>
 
 #include "core/errors.hpp"
 #include "fem_solver/scene/node_sets.hpp"
@@ -91,6 +92,17 @@ struct Maker {
     return membrane_of<TensionField<ExactWrinkles>>(membrane);
   }
 
+  ElementBatch operator()(const UserElementScene& scene) const {
+    const MakeUserElement& make = user_element(scene.name);
+    try {
+      if (!elements.segments.empty())
+        return UserLineBatch(make, scene.parameters, elements.segments, model.reference);
+      return UserTriangleBatch(make, scene.parameters, elements.triangles, model.reference);
+    } catch (const std::exception& error) {
+      throw core::ConfigError(fmt::format("user_element: {}", error.what()));
+    }
+  }
+
  private:
   /// At each inner node of the rope.
   std::vector<double> friction_of(const SlidingCableScene& rope) const {
@@ -131,6 +143,16 @@ double breaking_load_of(const ElementScene& scene) {
         return load.value_or(0);
       },
       scene);
+}
+
+double buckling_load_of(const ElementScene& scene, const ElementBatch& elements) {
+  const auto* bar = std::get_if<BarScene>(&scene);
+  const auto* batch = std::get_if<BarBatch>(&elements);
+  if (bar == nullptr || batch == nullptr || !bar->second_moment) return 0;
+  double longest = 0;
+  for (Index e = 0; e < batch->size(); ++e) longest = std::max(longest, batch->reference_length(e));
+  const double pi = std::numbers::pi;
+  return pi * pi * bar->youngs_modulus * *bar->second_moment / (longest * longest);
 }
 
 ElementBatch make_elements(const ElementScene& scene, const MeshedElements& elements, const Model& model) {

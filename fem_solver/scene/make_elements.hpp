@@ -19,6 +19,9 @@ struct MeshedElements {
 /// N; of the key `breaking_load`, or else of `breaks.force`. 0: not known
 double breaking_load_of(const ElementScene& scene);
 
+/// N; pi^2 E I/L^2 (Euler) of the longest bar of a part whose scene gives I, hinged at both ends. 0: not known
+double buckling_load_of(const ElementScene& scene, const ElementBatch& elements);
+
 /// @throws core::ConfigError naming the key where the shape does not fit the element, or its geometry cannot
 /// be computed with
 ElementBatch make_elements(const ElementScene& scene, const MeshedElements& elements, const Model& model);

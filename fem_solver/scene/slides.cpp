@@ -6,7 +6,9 @@
 #include <cmath>
 
 #include "core/errors.hpp"
+#include "core/program/log.hpp"
 #include "core/scene/plausible.hpp"
+#include "core/units/units.hpp"
 #include "fem_solver/constraints/nearest_segment.hpp"
 #include "fem_solver/model/rope_batch.hpp"
 #include "fem_solver/scene/node_sets.hpp"
@@ -42,20 +44,40 @@ std::vector<Index> rope_nodes(const NamedSlide& slide, const Model& model) {
       part->elements);
 }
 
-void check_sliders(const NamedSlide& slide, const SlideLine& line, const Model& model) {
-  const auto position = [&](std::size_t k) { return model.position(line.rope[k]); };
+double length_of(const std::vector<Index>& rope, const Model& model) {
   double length = 0;
-  for (std::size_t k = 0; k + 1 < line.rope.size(); ++k) length += (position(k + 1) - position(k)).norm();
+  for (std::size_t k = 0; k + 1 < rope.size(); ++k)
+    length += (model.position(rope[k + 1]) - model.position(rope[k])).norm();
+  return length;
+}
+
+/// The point of a rope that is nearest to a node, and how far that is (m).
+struct PlaceOnRope {
+  Vector3 point;
+  double gap = 0;
+};
+PlaceOnRope place_on_rope(const std::vector<Index>& rope, Index node, const Model& model) {
+  const auto position = [&](std::size_t k) { return model.position(rope[k]); };
+  const NearestSegment nearest = nearest_segment(rope.size() - 1, position, model.position(node));
+  const Vector3 first = position(nearest.segment), second = position(nearest.segment + 1);
+  return {first + nearest.fraction * (second - first), std::sqrt(nearest.squared_distance)};
+}
+
+/// @return m; the largest gap
+double check_sliders(const NamedSlide& slide, const SlideLine& line, const Model& model) {
+  const double farthest = farthest_share * length_of(line.rope, model);
+  double largest = 0;
   for (const Index node : line.sliders) {
     if (std::ranges::find(line.rope, node) != line.rope.end())
       throw core::ConfigError(
           fmt::format("{}.nodes: {} is a node of the rope itself", key(slide), node_name(model, node)));
-    const double gap =
-        std::sqrt(nearest_segment(line.rope.size() - 1, position, model.position(node)).squared_distance);
-    if (gap > farthest_share * length)
+    const double gap = place_on_rope(line.rope, node, model).gap;
+    if (gap > farthest)
       throw core::ConfigError(fmt::format("{}.nodes: {} is {:.4g} m away from the rope, more than {:.4g} m",
-                                          key(slide), node_name(model, node), gap, farthest_share * length));
+                                          key(slide), node_name(model, node), gap, farthest));
+    largest = std::max(largest, gap);
   }
+  return largest;
 }
 
 std::vector<Index> ascending(std::vector<Index> nodes) {
@@ -83,14 +105,38 @@ void describe(core::Fields& fields, SlideScene& slide) {
                                {"constraint", "constraints hold them, without"}});
 }
 
+void put_on_rope(const NamedSlide& slide, const std::vector<std::array<Index, 2>>& rope, Model& model) {
+  if (!std::holds_alternative<ConstraintSlideScene>(slide.second.method) || rope.empty()) return;
+  const std::vector<Index> line = RopeLine(rope, model.reference).nodes();
+  const double farthest = farthest_share * length_of(line, model);
+  double moved = 0;
+  for (const Index node : find_node_set(model, key(slide) + ".nodes", slide.second.nodes)) {
+    if (std::ranges::find(line, node) != line.end()) continue;  // which add_slide() refuses
+    const PlaceOnRope place = place_on_rope(line, node, model);
+    if (place.gap == 0 || place.gap > farthest) continue;
+    std::ranges::copy(place.point, &model.reference[3 * static_cast<std::size_t>(node)]);
+    moved = std::max(moved, place.gap);
+  }
+  if (moved > 0)
+    core::log_info(fmt::format("{}: its nodes were put on the rope, up to {} away", key(slide),
+                               core::readable(moved, "m")));
+}
+
 void add_slide(const NamedSlide& slide, Model& model) {
   const auto& [name, scene] = slide;
   if (std::ranges::find(model.parts, name, &Part::name) != model.parts.end())
     throw core::ConfigError(fmt::format("{}: there is a part of this name already", key(slide)));
   SlideLine line{rope_nodes(slide, model), find_node_set(model, key(slide) + ".nodes", scene.nodes)};
-  check_sliders(slide, line, model);
+  const double gap = check_sliders(slide, line, model);
   const auto* penalty = std::get_if<PenaltySlideScene>(&scene.method);
-  if (!penalty) return model.constrained_slides.push_back({name, std::move(line)});
+  if (!penalty) {
+    constexpr double round_off = 1e-9;  // of the rope's length
+    if (gap > round_off * length_of(line.rope, model))
+      throw core::ConfigError(fmt::format(
+          "{}.nodes: a node was put on another rope, {:.4g} m away from this one: two slides lead it",
+          key(slide), gap));
+    return model.constrained_slides.push_back({name, std::move(line)});
+  }
   std::vector<Index> nodes = line.rope;
   nodes.insert(nodes.end(), line.sliders.begin(), line.sliders.end());
   model.parts.push_back({name, PenaltySlideBatch(std::move(line), penalty->stiffness, model.reference),

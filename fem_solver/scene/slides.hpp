@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <string>
 #include <utility>
 #include <variant>
@@ -30,6 +31,10 @@ struct SlideScene {
 void describe(core::Fields& fields, SlideScene& slide);
 
 using NamedSlide = std::pair<std::string, SlideScene>;
+
+/// Before elements are made: nodes that constraints are to lead start on their rope, so that no step has to take them
+/// there. @param rope segments of the rope's part, by node
+void put_on_rope(const NamedSlide& slide, const std::vector<std::array<Index, 2>>& rope, Model& model);
 
 /// Adds a slide to the model: springs as a part, constraints beside the parts.
 /// @pre parts, their elements and node sets are there

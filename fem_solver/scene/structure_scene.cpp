@@ -121,6 +121,9 @@ void describe(core::Fields& fields, StructureScene& structure) {
   fields.optional(
       "gravity", structure.gravity,
       {.unit = "m/s^2", .help = "acceleration of free fall", .plausible = core::plausible::gravity});
+  describe_history(fields, "gravity_over_time", structure.gravity_over_time);
+  fields.rule(structure.gravity_over_time.empty() || structure.gravity, "gravity_over_time",
+              "needs `gravity` beside it");
   fields.section("damping", structure.damping, "Rayleigh damping of all parts");
   fields.section("start", structure.start,
                  "where the structure is at time 0; as its shapes are written where absent");

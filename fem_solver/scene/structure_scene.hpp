@@ -95,7 +95,8 @@ inline bool is_explicit(const MethodScene& method) {
 struct StructureScene {
   std::optional<std::string> solver;
   std::optional<DampingScene> damping;
-  std::optional<core::Vector3> gravity;  ///< m/s^2
+  std::optional<core::Vector3> gravity;                      ///< m/s^2
+  std::vector<std::pair<double, double>> gravity_over_time;  ///< s, factor
   std::vector<std::pair<std::string, PartScene>> parts;
   std::optional<WeldScene> weld;
   std::vector<NamedSlide> slides;

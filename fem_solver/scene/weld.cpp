@@ -21,6 +21,38 @@ struct PointCloud {
 using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, PointCloud>, PointCloud,
                                                  3, std::size_t>;
 
+/// Nodes that become one, each group with the parts they are of.
+class Groups {
+ public:
+  explicit Groups(std::span<const Index> part_of) : towards_(part_of.size()) {
+    std::iota(towards_.begin(), towards_.end(), 0);
+    for (const Index part : part_of) parts_.push_back({part});
+  }
+  /// The lowest-numbered of its group.
+  Index of(Index node) {
+    auto& next = towards_[static_cast<std::size_t>(node)];
+    return next == node ? node : next = of(next);
+  }
+  /// Unless two nodes of one part would become one.
+  void join(Index a, Index b) {
+    const auto [into, from] = std::minmax({of(a), of(b)});
+    auto &own = parts_[static_cast<std::size_t>(into)], &more = parts_[static_cast<std::size_t>(from)];
+    if (into == from || std::ranges::find_first_of(own, more) != own.end()) return;
+    own.insert(own.end(), more.begin(), more.end());
+    towards_[static_cast<std::size_t>(from)] = into;
+  }
+
+ private:
+  std::vector<Index> towards_;
+  std::vector<std::vector<Index>> parts_;
+};
+
+struct NearPair {
+  double squared_distance;
+  Index a, b;
+  auto operator<=>(const NearPair&) const = default;
+};
+
 }  // namespace
 
 std::vector<Index> weld_map(std::span<const double> positions, std::span<const Index> part_of,
@@ -30,15 +62,20 @@ std::vector<Index> weld_map(std::span<const double> positions, std::span<const I
   tree.buildIndex();
   // nanoflann finds squared distances below the radius; a tolerance of zero still joins equal points.
   const double radius = std::max(tolerance * tolerance, 1e-300) * (1 + 1e-12);
-  std::vector<Index> becomes(part_of.size());
-  std::iota(becomes.begin(), becomes.end(), 0);
+  std::vector<NearPair> pairs;
   std::vector<std::pair<std::size_t, double>> near;
   for (std::size_t i = 0; i < part_of.size(); ++i) {
     near.clear();
     tree.radiusSearch(&positions[3 * i], radius, near, nanoflann::SearchParams());
     for (const auto& [j, squared] : near)
-      if (part_of[j] != part_of[i]) becomes[i] = std::min(becomes[i], becomes[std::min(i, j)]);
+      if (j > i && part_of[j] != part_of[i])
+        pairs.push_back({squared, static_cast<Index>(i), static_cast<Index>(j)});
   }
+  std::ranges::sort(pairs);
+  Groups groups(part_of);
+  for (const NearPair& pair : pairs) groups.join(pair.a, pair.b);
+  std::vector<Index> becomes(part_of.size());
+  for (std::size_t i = 0; i < becomes.size(); ++i) becomes[i] = groups.of(static_cast<Index>(i));
   return becomes;
 }
 

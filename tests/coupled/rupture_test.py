@@ -103,6 +103,14 @@ class LargestForces(unittest.TestCase):
         self.assertAlmostEqual(used["utilisation"], run.summary["tables"]["largest_forces"]["rope"]["tension_N"] / 20e3, places=12)
         self.assertGreater(used["utilisation"], 0)
 
+    def test_the_compression_of_a_post_is_compared_with_its_buckling_load(self):
+        post = "structure: {parts: {west_post: {bar: {second_moment: 100 cm^4}}}}\n"
+        run = Run("examples/stayed_posts", "output: {largest_forces: {}}\n" + post, program="fem_solver")
+        row = run.summary["tables"]["buckling"]["west_post"]
+        self.assertAlmostEqual(row["buckling_load_N"], np.pi**2 * 210e9 * 100e-8 / 2.0**2, delta=1)  # E I of a post of 2 m
+        self.assertEqual(row["compression_N"], run.summary["tables"]["largest_forces"]["west_post"]["compression_N"])
+        self.assertNotIn("east_post", run.summary["tables"]["buckling"])
+
     def test_nothing_is_recorded_where_nobody_asks(self):
         self.assertEqual(Run("examples/sliding_rope_static", program="fem_solver").summary["tables"], {})
 

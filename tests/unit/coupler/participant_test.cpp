@@ -165,6 +165,16 @@ TEST_CASE("a participant is told why the coupler ends the run") {
   CHECK_THAT(message, Contains("ended the run: the disk is full"));
 }
 
+TEST_CASE("of two failures of a participant the coupler hears the first") {
+  Coupler coupler;
+  coupler.session.await(Role::structure);
+  const test::ParticipantThread thread(coupler.segment, Role::structure, [&](Participant& p) {
+    p.fail(std::runtime_error("no licence"));
+    p.fail(std::runtime_error("gone"));
+  });
+  CHECK_THROWS_WITH(coupler.introduce_all(), Contains("no licence") && !Contains("gone"));
+}
+
 TEST_CASE(
     "a value that is no number is refused where it is handed over, and named with side, field, node and "
     "window") {

@@ -244,3 +244,33 @@ TEST_CASE("a sliding rope and a brake that break let their weight fall, and what
                               steel + ", friction: 0.1, breaks: {force: 1 kN}}\n"),
              Catch::Contains("not known yet for ropes with friction"));
 }
+
+TEST_CASE("gravity that comes on over time does the work of its present strength, by every method") {
+  // A weight on a soft spring falls under g t/T: nearly free, so it has fallen by g t^3/(6 T).
+  const std::string soft =
+      "  gravity: [10, 0, 0]\n  gravity_over_time: [[0 s, 0], [1 s, 1]]\n  parts:\n    bar:\n      polyline: "
+      "{points: [[0 m, 0 m, 0 m], "
+      "[1 m, 0 m, 0 m]]}\n      bar: {area: 1 mm^2, density: 7850 kg/m^3, youngs_modulus: 1 MPa}\n  "
+      "point_masses:\n    - {nodes: "
+      "bar.end, mass: 10 kg}\n  supports:\n    - {nodes: bar.start, fix: xyz}\n    - {nodes: bar.end, fix: "
+      "yz}\n";
+  for (const char* method :
+       {"  explicit: {}\n  step: 100 us\n", "  implicit: {spectral_radius: 1}\n  step: 1 ms\n"}) {
+    CAPTURE(method);
+    Run run(soft + method);
+    run.advance_to(0.3);
+    const double fall = 10 * 0.027 / 6;
+    CHECK(run.displacement(3) == Approx(fall).epsilon(5e-3));
+    const EnergyBalance balance = run.built.integrator().balance();
+    CHECK(balance.kinetic + balance.elastic[0] + balance.gravity == Approx(0).margin(1e-3 * balance.kinetic));
+    // m (g t^2/2T)^2/2
+    CHECK(-balance.gravity == Approx(0.5 * 10 * 0.45 * 0.45).epsilon(2e-2));
+  }
+  Run at_rest(soft + "  static: {steps: 10}\n");
+  at_rest.advance_to(
+      0.5);  // half of the weight of 100 N on E A = 1 N m/m, St. Venant's law: E A e (1 + e)(1 + e/2) = 50 N
+  const double e = at_rest.displacement(3);
+  CHECK(e * (1 + e) * (1 + 0.5 * e) == Approx(0.5 * 10 * (10 + 0.5 * 7850e-6)).epsilon(1e-6));
+  CHECK_THAT(tests::complaint("  gravity_over_time: [[0 s, 0], [1 s, 1]]\n" + weighted_bar),
+             Catch::Contains("needs `gravity` beside it"));
+}
