@@ -87,8 +87,8 @@ double most(const std::vector<double>& values) {
 
 }  // namespace
 
-TEST_CASE(
-    "a structure that starts at rest under its weight stays there, whatever it is and however it moves") {
+TEST_CASE("a structure that starts at rest under its weight stays there, whatever it is and however it moves",
+          "[long]") {
   for (const Kind& kind : kinds())
     for (const std::string& start : kind.starts)
       for (const std::string& method : {by_leapfrog, by_newmark}) {
