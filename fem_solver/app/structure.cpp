@@ -65,7 +65,7 @@ State start_of(const StructureScene& scene, Assembly& assembly) {
 
 std::vector<StepBound> bounds_of(const StructureScene& scene, Assembly& assembly, const State& start) {
   if (!is_explicit(scene.method)) return {};
-  return step_bounds(assembly, start.displacement);
+  return step_bounds(assembly, start.configuration());
 }
 
 double chosen_step(const StructuralScene& scene, const std::vector<StepBound>& bounds) {

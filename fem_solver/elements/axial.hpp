@@ -20,10 +20,12 @@ struct AxialSection {
 
 /// What happens when the stress turns negative: a bar carries it, a cable goes slack.
 struct CarriesCompression {
+  static constexpr const char* called = "bars";
   static constexpr double stress(double trial) noexcept { return trial; }
   static constexpr double modulus(double /*trial*/, double youngs_modulus) noexcept { return youngs_modulus; }
 };
 struct TensionOnly {
+  static constexpr const char* called = "cables";
   static constexpr double stress(double trial) noexcept { return trial > 0 ? trial : 0; }
   static constexpr double modulus(double trial, double youngs_modulus) noexcept {
     return trial >= 0 ? youngs_modulus : 0;

@@ -7,7 +7,7 @@
 namespace talus::fem {
 
 struct EquilibriumOptions {
-  std::int64_t steps = 10;  ///< in which weight, loads and prestress come on
+  std::int64_t steps = 10;  ///< in which weight and loads without a table come on
   NewtonOptions newton{};
 };
 

@@ -84,6 +84,7 @@ void ImplicitSolver::start(double time) {
   lead_supports_off(time);
   before_ = state_;
   assembly_.internal_force(state_.configuration(), state_.force);
+  if (record_) record_->note_elements(time, state_.configuration(), assembly_.next_memory(), state_.record);
   add_external_force(model_, {}, {.time = time}, state_.force);
   std::vector<double> sum = state_.force;
   add_damping(-1, state_.velocity, sum);
@@ -94,6 +95,7 @@ void ImplicitSolver::start(double time) {
     needed[i] = model_.node_masses[i / 3] * state_.acceleration[i] - sum[i];
   newton_.slides().carry_over(needed);
   for (const HeldDirection& h : held_) state_.reactions[h.reaction] = needed[h.direction];
+  if (record_) record_->note_supports(time, state_.reactions, state_.record);
 }
 
 /// Supports that a table leads have its rate from the start on: from rest they would ring about it. What that gives

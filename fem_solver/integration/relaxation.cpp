@@ -40,7 +40,12 @@ class Relaxation {
   }
 
  private:
-  void take_masses() { masses_ = stiffness_bounds(model_, state_.configuration()); }
+  void take_masses() {
+    const std::vector<double> sums = stiffness_bounds(model_, state_.configuration());
+    masses_.resize(sums.size() / 3);
+    for (std::size_t node = 0; node < masses_.size(); ++node)
+      masses_[node] = std::max({sums[3 * node], sums[3 * node + 1], sums[3 * node + 2]});
+  }
   /// @return the largest force left over the largest force
   double evaluate() {
     assembly_.internal_force(state_.configuration(), force_);

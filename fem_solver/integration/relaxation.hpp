@@ -18,14 +18,14 @@ struct RelaxationOptions {
 /// cycles, fast and slow ones alike, and vanishes where nothing moves. Finds the way where Newton's method has none to
 /// go: parts without stiffness, nets and ropes that hang slack, ropes that turn taut.
 ///
-///     v += (F - a |F| sign v)/m      u += v      m_i = sum over j of ||K_ij||
+///     v += (F - a |F| sign v)/m      u += v      m_i = max over directions of (sum over j of |K_ij|)
 ///
 /// | symbol | meaning                                                                              | unit |
 /// |--------|--------------------------------------------------------------------------------------|------|
 /// | v, u   | way of a step, displacement                                                          | m    |
 /// | F      | all forces at the state, with loads, gravity and supports as they are at time 0      | N    |
 /// | a      | damping, 0.7                                                                         | 1    |
-/// | m      | stands for mass, with a step of 1: the stiffness bound of the node (model.hpp)       | N/m  |
+/// | m      | stands for mass, with a step of 1: the largest stiffness bound of the node (model.hpp) | N/m  |
 ///
 /// No frequency exceeds 1 then, or sqrt(1 + a) where the brake adds to the force; steps are stable up to 2. What
 /// elements remember follows from step to step, so ropes slip and brakes run as they do under a load that comes on

@@ -69,6 +69,9 @@ void StaticSolver::start(double time) {
   add_external_force(model_, interface_, load_time(time), external_);
   residual(state_.displacement, sum);
   note_reactions(sum);
+  if (!record_) return;
+  record_->note_elements(time, state_.configuration(), assembly_.next_memory(), state_.record);
+  record_->note_supports(time, state_.reactions, state_.record);
 }
 
 void StaticSolver::note_reactions(std::span<const double> sum) {

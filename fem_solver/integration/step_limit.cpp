@@ -120,36 +120,6 @@ double stable_step(double frequency, const Damping& damping) {
 
 namespace {
 
-/// What limits a part's step, in words.
-template <class Batch>
-constexpr const char* kind_of = "elements";
-template <>
-constexpr const char* kind_of<BarBatch> = "bars";
-template <>
-constexpr const char* kind_of<CableBatch> = "cables";
-template <>
-constexpr const char* kind_of<SlidingCableBatch> = "sliding rope";
-template <>
-constexpr const char* kind_of<FrictionalCableBatch> = "sliding rope";
-template <>
-constexpr const char* kind_of<PenaltySlideBatch> = "penalty springs";
-template <class Law>
-constexpr const char* kind_of<MembraneBatch<Law>> = "membrane";
-template <>
-constexpr const char* kind_of<BrakeBatch> = "brakes";
-template <>
-constexpr const char* kind_of<ElasticPlasticBatch> = "ropes that yield";
-template <>
-constexpr const char* kind_of<BreakingCableBatch> = "cables that break";
-template <std::size_t nodes>
-constexpr const char* kind_of<UserBatch<nodes>> = "elements of this program";
-template <>
-constexpr const char* kind_of<BreakingBrakeBatch> = "brakes that break";
-template <>
-constexpr const char* kind_of<BreakingRopeBatch> = "sliding rope that breaks";
-template <>
-constexpr const char* kind_of<BreakingElasticPlasticBatch> = "ropes that yield and break";
-
 std::string formula(double frequency, const Damping& damping) {
   return fmt::format("(2/w)(sqrt(1 + xi^2) - xi) with w = {:.6g} 1/s, xi = {:.3g}", frequency,
                      0.5 * damping.stiffness * frequency);
@@ -191,7 +161,7 @@ class BoundSearch {
     for_each_part(model_, at_, [&](std::size_t p, const auto& batch, const Configuration& own) {
       const std::string& name = model_.parts[p].name;
       part_ = own;
-      weigh(name, kind_of<std::decay_t<decltype(batch)>>, batch);
+      weigh(name, batch.called(), batch);
       slack_ = slack_ || is_slack(batch, own);
       add_part(name, batch);
     });
@@ -207,7 +177,7 @@ class BoundSearch {
 
  private:
   /// Where the fastest mode lives: the part that takes most of its energy, and the node where most of that is.
-  void weigh(const std::string& name, const char* kind, ElementBatch elements) {
+  void weigh(const std::string& name, const std::string& kind, ElementBatch elements) {
     Model alone = only(std::move(elements));
     Assembly assembly(alone);
     Vector product(shape_.size());
@@ -235,14 +205,13 @@ class BoundSearch {
   template <class Batch>
   void add_part(const std::string& name, const Batch& batch) {
     if (model_.parts.size() > 1)
-      add(fmt::format("{} of {} alone", kind_of<Batch>, name), frequency_of(batch), "");
+      add(fmt::format("{} of {} alone", Batch::called(), name), frequency_of(batch), "");
   }
   template <class Compression>
   void add_part(const std::string& name, const TwoNodeBatch<Compression>& batch) {
     const std::string element = shortest_element(name, batch);
     if (model_.parts.size() > 1)
-      add(fmt::format("{} of {} alone", kind_of<TwoNodeBatch<Compression>>, name), frequency_of(batch),
-          element);
+      add(fmt::format("{} of {} alone", batch.called(), name), frequency_of(batch), element);
     if (batch.part().section.prestress <= 0) return;
     AxialPart string = batch.part();
     string.section.youngs_modulus = 0;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -32,6 +33,7 @@ struct SegmentLengths {
 struct ElasticRope {
   AxialSection section;
 
+  static std::string called() { return "cables"; }
   using Lengths = SegmentLengths;
   AxialResponse respond(const Lengths& lengths, double history) const noexcept;
   double stored(const Lengths& lengths, double history) const noexcept;  ///< J
@@ -64,6 +66,7 @@ struct ElasticPlasticRope {
   double yield_stress = 0;
   double hardening = 0;
 
+  static std::string called() { return "ropes that yield"; }
   using Lengths = SegmentLengths;
   AxialResponse respond(const Lengths& lengths, double history) const noexcept;
   double stored(const Lengths& lengths, double history) const noexcept;      ///< J
@@ -106,6 +109,7 @@ class BrakeLaw {
   /// piece
   explicit BrakeLaw(Description description);
 
+  static std::string called() { return "brakes"; }
   using Lengths = SegmentLengths;
   AxialResponse respond(const Lengths& lengths, double history) const noexcept;
   double stored(const Lengths& lengths, double history) const noexcept;      ///< J
@@ -152,6 +156,7 @@ struct Breaking {
   BreakingLimits limits;
 
   using Lengths = SegmentLengths;
+  static std::string called() { return "breaking " + Law::called(); }
   static bool is_broken(double history) noexcept { return history < 0; }
 
   AxialResponse respond(const Lengths& lengths, double history) const noexcept {

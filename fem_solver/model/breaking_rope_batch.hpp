@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "fem_solver/materials/axial_laws.hpp"
 #include "fem_solver/model/rope_batch.hpp"
 
@@ -16,6 +18,7 @@ class BreakingRopeBatch {
   BreakingRopeBatch(SlidingCableBatch rope, const BreakingLimits& limits)
       : rope_(std::move(rope)), limits_(limits) {}
 
+  static std::string called() { return "breaking " + SlidingCableBatch::called(); }
   Index size() const { return 1; }
   Index slots() const { return rope_.slots(); }
   const std::vector<std::array<Index, 2>>& cells() const { return rope_.cells(); }
@@ -33,8 +36,8 @@ class BreakingRopeBatch {
                          core::Block elements) const noexcept;
   void stiffest_product(const Configuration& at, std::span<const double> direction, std::span<double> slots,
                         core::Block elements) const noexcept;
-  void add_stiffness_bound(const Configuration& at, std::span<double> node_sums) const {
-    if (!is_broken(at)) rope_.add_stiffness_bound(at, node_sums);
+  void add_stiffness_bound(const Configuration& at, std::span<double> row_sums) const {
+    if (!is_broken(at)) rope_.add_stiffness_bound(at, row_sums);
   }
   double energy(const Configuration& at) const noexcept {
     return is_broken(at) ? slack_energy() : rope_.energy(at);

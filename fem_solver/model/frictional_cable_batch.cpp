@@ -80,13 +80,15 @@ void FrictionalCableBatch::stiffness_product(const Configuration& at, std::span<
 
 /// With the material held, as in stiffness_product().
 void FrictionalCableBatch::add_stiffness_bound(const Configuration& at,
-                                               std::span<double> node_sums) const noexcept {
+                                               std::span<double> row_sums) const noexcept {
   const auto chords = line_.chords(at.displacement);
   for (std::size_t i = 0; i < segments(); ++i) {
     const double held = material(at)[i], q = cable_.stretch(chords(i), held);
     const RopeSegment segment(chords(i), cable_.gap());
-    add_pair_bound(line_.cells()[i], law_.taut_slope(q) / held + law_.tension(q) * segment.inverse_radius,
-                   node_sums);
+    const Vector3& t = segment.direction;
+    add_pair_bound(line_.cells()[i],
+                   law_.taut_slope(q) / held * t * t.transpose() + law_.tension(q) * segment.curvature(),
+                   row_sums);
   }
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <vector>
 
 #include "fem_solver/elements/frictional_cable.hpp"
@@ -31,6 +32,7 @@ class FrictionalCableBatch {
   FrictionalCableBatch(const Description& description, const std::vector<std::array<Index, 2>>& segments,
                        std::span<const double> reference);
 
+  static std::string called() { return "sliding rope"; }
   Index size() const { return 1; }
   Index slots() const { return line_.segments(); }
   const std::vector<std::array<Index, 2>>& cells() const { return line_.cells(); }
@@ -52,7 +54,7 @@ class FrictionalCableBatch {
                         core::Block elements) const noexcept {
     stiffness_product(at, direction, slots, elements);
   }
-  void add_stiffness_bound(const Configuration& at, std::span<double> node_sums) const noexcept;
+  void add_stiffness_bound(const Configuration& at, std::span<double> row_sums) const noexcept;
   double energy(const Configuration& at) const noexcept;
   void add_mass(std::span<double> node_masses) const noexcept { add_rope_mass(line_, part_, node_masses); }
   /// With the slip that follows; not symmetric.

@@ -138,15 +138,15 @@ void MembraneBatch<Law>::stiffest_product(const Configuration& at, std::span<con
 
 template <class Law>
 void MembraneBatch<Law>::add_stiffness_bound(const Configuration& at,
-                                             std::span<double> node_sums) const noexcept {
+                                             std::span<double> row_sums) const noexcept {
   for (Index e = 0; e < size(); ++e) {
     const auto state = deformation(at, e);
     const Matrix9 K =
         membrane_stiffness(triangle(e), state, law_.stress(state.strain), law_.stiffest_tangent());
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j)
-        node_sums[place(triangles_[place(e)][static_cast<std::size_t>(i)])] +=
-            K.block<3, 3>(3 * i, 3 * j).norm();
+        Vector3::Map(&row_sums[3 * place(triangles_[place(e)][static_cast<std::size_t>(i)])]) +=
+            K.block<3, 3>(3 * i, 3 * j).cwiseAbs().rowwise().sum();
   }
 }
 

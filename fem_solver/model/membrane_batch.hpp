@@ -2,6 +2,7 @@
 
 #include <array>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "core/parallel.hpp"
@@ -32,6 +33,7 @@ class MembraneBatch {
   MembraneBatch(const MembranePart& part, const Law& law, std::vector<std::array<Index, 3>> triangles,
                 std::span<const double> reference);
 
+  static std::string called() { return "membrane"; }
   Index size() const { return static_cast<Index>(triangles_.size()); }
   Index slots() const { return 2 * size(); }
   const std::vector<std::array<Index, 3>>& cells() const { return triangles_; }
@@ -53,7 +55,7 @@ class MembraneBatch {
   /// With the moduli of the taut sheet, which those of a wrinkled or slack one never exceed.
   void stiffest_product(const Configuration& at, std::span<const double> direction, std::span<double> slots,
                         core::Block elements) const noexcept;
-  void add_stiffness_bound(const Configuration& at, std::span<double> node_sums) const noexcept;
+  void add_stiffness_bound(const Configuration& at, std::span<double> row_sums) const noexcept;
   double energy(const Configuration& at) const noexcept;
   void add_mass(std::span<double> node_masses) const noexcept;
 

@@ -68,7 +68,7 @@ std::vector<double> dissipated_by_parts(const Model& model, const Configuration&
 }
 
 std::vector<double> stiffness_bounds(const Model& model, const Configuration& at) {
-  std::vector<double> sums(static_cast<std::size_t>(model.nodes()), 0.0);
+  std::vector<double> sums(model.reference.size(), 0.0);
   for_each_part(model, at, [&](std::size_t, const auto& batch, const Configuration& own) {
     batch.add_stiffness_bound(own, sums);
   });

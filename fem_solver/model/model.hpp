@@ -22,6 +22,7 @@
 namespace talus::fem {
 
 /// The elements of one part. Every alternative offers, for a Configuration `at`:
+///   called()                               what messages call its elements: "bars"
 ///   size(), slots()                        elements, and force vectors they write
 ///   for_each_incidence(visit)              visit(node, slot, sign): which slots sum up to a node's force, in
 ///                                          a fixed order
@@ -29,8 +30,8 @@ namespace talus::fem {
 ///   stiffness_product(at, w, slots, range) (d2U/du2) w
 ///   stiffness(at, sink)                    d2U/du2 as 3x3 blocks
 ///   energy(at)                             U (J), zero at the reference state
-///   add_stiffness_bound(at, node_sums)     norms of the 3x3 blocks of each node's row of d2U/du2, summed, with
-///                                          everything taut that may become taut (N/m)
+///   add_stiffness_bound(at, row_sums)      sizes of the numbers in each row of d2U/du2, summed, with everything taut
+///                                          that may become taut (N/m, 3 a node)
 ///   add_mass(node_masses)                  lumped (kg)
 /// What elements remember besides: Remembers in configuration.hpp.
 using ElementBatch =
@@ -151,8 +152,8 @@ std::vector<double> dissipated_by_parts(const Model& model, const Configuration&
 /// Whether a part can dissipate.
 bool dissipates(const ElementBatch& elements);
 
-/// One a node (N/m): no motion with masses m has a higher frequency than the largest sqrt(sum/m) (Gershgorin's
-/// theorem, by blocks), whatever of the structure is taut.
+/// 3 a node (N/m): no motion with masses m has a higher frequency than the largest sqrt(sum/m) over the directions
+/// (Gershgorin's theorem on M^-1 K), whatever of the structure is taut.
 std::vector<double> stiffness_bounds(const Model& model, const Configuration& at);
 
 /// Sums node_masses from the elements. Point masses are added by whoever knows them.

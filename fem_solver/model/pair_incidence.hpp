@@ -32,10 +32,11 @@ void spread_pair_block(const std::array<Index, 2>& row, const std::array<Index, 
   sink(row[1], column[1], block);
 }
 
-/// Adds the norms of the blocks K and -K that two nodes share. @param stiffness largest eigenvalue of K, N/m
-inline void add_pair_bound(const std::array<Index, 2>& nodes, double stiffness,
-                           std::span<double> node_sums) noexcept {
-  for (const Index node : nodes) node_sums[static_cast<std::size_t>(node)] += 2 * stiffness;
+/// Adds the sizes of the rows of the blocks K and -K that two nodes share (N/m).
+inline void add_pair_bound(const std::array<Index, 2>& nodes, const Matrix3& K,
+                           std::span<double> row_sums) noexcept {
+  for (const Index node : nodes)
+    Vector3::Map(&row_sums[3 * static_cast<std::size_t>(node)]) += 2 * K.cwiseAbs().rowwise().sum();
 }
 
 }  // namespace talus::fem

@@ -37,24 +37,27 @@ void PathBatch<Law>::stiffness_product(const Configuration& at, std::span<const 
 }
 
 template <class Law>
+Matrix3 PathBatch<Law>::stiffest(const Configuration& at, Index e) const noexcept {
+  if constexpr (requires { Law::is_broken(0.0); })
+    if (is_broken(at, e)) return Matrix3::Zero();
+  const Vector3 d = chord(at.displacement, e);
+  AxialResponse response = segment(e).respond(d, kept(at, e));
+  response.slope = description_.law.stiffest_slope({d.norm(), lengths_[place(e)]}, response.force);
+  return segment(e).stiffness(d, response);
+}
+
+template <class Law>
 void PathBatch<Law>::stiffest_product(const Configuration& at, std::span<const double> direction,
                                       std::span<double> slots, core::Block elements) const noexcept {
   for (auto e = static_cast<Index>(elements.begin); e < elements.end; ++e) {
-    const Vector3 d = chord(at.displacement, e);
-    AxialResponse response = segment(e).respond(d, kept(at, e));
-    response.slope = stiffest_slope(at, e, {d.norm(), lengths_[place(e)]});
-    Vector3::Map(&slots[3 * place(e)]) = segment(e).stiffness(d, response) * difference(direction, e);
+    Vector3::Map(&slots[3 * place(e)]) = stiffest(at, e) * difference(direction, e);
   }
 }
 
 template <class Law>
-void PathBatch<Law>::add_stiffness_bound(const Configuration& at,
-                                         std::span<double> node_sums) const noexcept {
+void PathBatch<Law>::add_stiffness_bound(const Configuration& at, std::span<double> row_sums) const noexcept {
   for (Index e = 0; e < size(); ++e) {
-    const double length = chord(at.displacement, e).norm(), force = axial_force(at, e);
-    const double along = stiffest_slope(at, e, {length, lengths_[place(e)]});
-    add_pair_bound(segments_[place(e)], length > 0 ? std::max(along, std::abs(force) / length) : along,
-                   node_sums);
+    add_pair_bound(segments_[place(e)], stiffest(at, e), row_sums);
   }
 }
 

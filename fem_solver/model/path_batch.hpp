@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "core/parallel.hpp"
@@ -26,6 +27,7 @@ class PathBatch {
   PathBatch(Description description, std::vector<std::array<Index, 2>> segments,
             std::span<const double> reference);
 
+  static std::string called() { return Law::called(); }
   Index size() const { return static_cast<Index>(segments_.size()); }
   Index slots() const { return size(); }
   const std::vector<std::array<Index, 2>>& cells() const { return segments_; }
@@ -44,7 +46,7 @@ class PathBatch {
   /// At the law's initial stiffness, to which it may unload in any step.
   void stiffest_product(const Configuration& at, std::span<const double> direction, std::span<double> slots,
                         core::Block elements) const noexcept;
-  void add_stiffness_bound(const Configuration& at, std::span<double> node_sums) const noexcept;
+  void add_stiffness_bound(const Configuration& at, std::span<double> row_sums) const noexcept;
   double energy(const Configuration& at) const noexcept;
   void add_mass(std::span<double> node_masses) const noexcept;
   template <class Sink>
@@ -80,12 +82,8 @@ class PathBatch {
     const auto [near, far] = segments_[place(e)];
     return Vector3::Map(&values[3 * place(far)]) - Vector3::Map(&values[3 * place(near)]);
   }
-  /// N/m; along the axis, at most.
-  double stiffest_slope(const Configuration& at, Index e, const SegmentLengths& lengths) const noexcept {
-    if constexpr (requires { Law::is_broken(0.0); })
-      if (is_broken(at, e)) return 0;
-    return description_.law.stiffest_slope(lengths, axial_force(at, e));
-  }
+  /// The far node's block at the law's initial stiffness; zero once broken.
+  Matrix3 stiffest(const Configuration& at, Index e) const noexcept;
   Vector3 chord(std::span<const double> displacement, Index e) const noexcept {
     return Vector3::Map(&reference_[3 * place(e)]) + difference(displacement, e);
   }

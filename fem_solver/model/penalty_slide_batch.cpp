@@ -74,11 +74,11 @@ void PenaltySlideBatch::stiffest_product(const Configuration& at, std::span<cons
 }
 
 void PenaltySlideBatch::add_stiffness_bound(const Configuration& at,
-                                            std::span<double> node_sums) const noexcept {
+                                            std::span<double> row_sums) const noexcept {
   for (std::size_t k = 0; k < line_.sliders.size(); ++k) {
     const std::size_t segment = contact(at, k).segment;
     for (const Index node : {line_.sliders[k], line_.rope[segment], line_.rope[segment + 1]})
-      node_sums[static_cast<std::size_t>(node)] += 2 * penalty_;
+      Vector3::Map(&row_sums[3 * static_cast<std::size_t>(node)]).array() += 2 * penalty_;
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "core/parallel.hpp"
@@ -21,6 +22,7 @@ class PenaltySlideBatch {
   /// @param penalty N/m. @param reference node positions, 3 a node (m)
   PenaltySlideBatch(SlideLine line, double penalty, std::span<const double> reference);
 
+  static std::string called() { return "penalty springs"; }
   Index size() const { return 1; }  ///< sliders share rope nodes, so they are computed in one go
   Index slots() const { return static_cast<Index>(line_.sliders.size() + line_.rope.size()); }
   const std::vector<std::array<Index, 1>>& cells() const { return cells_; }
@@ -40,7 +42,7 @@ class PenaltySlideBatch {
   /// pull; without the geometric part, a share gap/segment of the rest.
   void stiffest_product(const Configuration& at, std::span<const double> direction, std::span<double> slots,
                         core::Block elements) const noexcept;
-  void add_stiffness_bound(const Configuration& at, std::span<double> node_sums) const noexcept;
+  void add_stiffness_bound(const Configuration& at, std::span<double> row_sums) const noexcept;
   double energy(const Configuration& at) const noexcept;
   void add_mass(std::span<double>) const noexcept {}
   /// Distance of slider k from the rope (m).

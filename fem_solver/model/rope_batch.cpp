@@ -86,21 +86,22 @@ void SlidingCableBatch::stiffest_product(const Configuration& at, std::span<cons
 }
 
 /// The stretching of the whole rope is one number times T T^T, the turning of each segment a matter of its two nodes.
-void SlidingCableBatch::add_stiffness_bound(const Configuration& at, std::span<double> node_sums) const {
+void SlidingCableBatch::add_stiffness_bound(const Configuration& at, std::span<double> row_sums) const {
   const auto chords = line_.chords(at.displacement);
   std::vector<Vector3> pulls(line_.nodes().size(), Vector3::Zero());  // T
   for (std::size_t i = 0; i < chords.size(); ++i) {
     const RopeSegment segment(chords(i), cable_.gap);
     pulls[i] -= segment.direction;
     pulls[i + 1] += segment.direction;
-    add_pair_bound(line_.cells()[i], cable_.tension(chords) * segment.inverse_radius, node_sums);
+    add_pair_bound(line_.cells()[i], cable_.tension(chords) * segment.curvature(), row_sums);
   }
   double all = 0;
-  for (const Vector3& pull : pulls) all += pull.norm();
+  for (const Vector3& pull : pulls) all += pull.lpNorm<1>();
   const double slope =
       cable_.law.taut_slope(cable_.length(chords) / cable_.reference_length) / cable_.reference_length;
   for (std::size_t k = 0; k < pulls.size(); ++k)
-    node_sums[static_cast<std::size_t>(line_.nodes()[k])] += slope * pulls[k].norm() * all;
+    Vector3::Map(&row_sums[3 * static_cast<std::size_t>(line_.nodes()[k])]) +=
+        slope * all * pulls[k].cwiseAbs();
 }
 
 double SlidingCableBatch::stress(const Configuration& at) const noexcept {

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "core/parallel.hpp"
@@ -82,6 +83,7 @@ class SlidingCableBatch {
   SlidingCableBatch(const AxialPart& part, double gap, const std::vector<std::array<Index, 2>>& segments,
                     std::span<const double> reference);
 
+  static std::string called() { return "sliding rope"; }
   Index size() const { return 1; }
   Index slots() const { return line_.segments(); }
   const std::vector<std::array<Index, 2>>& cells() const { return line_.cells(); }
@@ -96,7 +98,7 @@ class SlidingCableBatch {
   /// As if the rope were taut.
   void stiffest_product(const Configuration& at, std::span<const double> direction, std::span<double> slots,
                         core::Block) const noexcept;
-  void add_stiffness_bound(const Configuration& at, std::span<double> node_sums) const;
+  void add_stiffness_bound(const Configuration& at, std::span<double> row_sums) const;
   double energy(const Configuration& at) const noexcept {
     return cable_.energy(line_.chords(at.displacement));
   }

@@ -46,13 +46,16 @@ void TwoNodeBatch<Compression>::stiffest_product(const Configuration& at, std::s
 
 template <class Compression>
 void TwoNodeBatch<Compression>::add_stiffness_bound(const Configuration& at,
-                                                    std::span<double> node_sums) const noexcept {
+                                                    std::span<double> row_sums) const noexcept {
   for (Index e = 0; e < size(); ++e) {
     const AxialElement<Compression> bar = element(e);
-    const double strain = bar.strain(difference(at.displacement, e)), inverse = bar.inverse_length;
-    const double along = bar.section.youngs_modulus * std::max(0.0, 1 + 2 * strain),
-                 across = std::abs(Compression::stress(bar.trial_stress(strain)));
-    add_pair_bound(segments_[place(e)], bar.section.area * inverse * (along + across), node_sums);
+    const Vector3 stretch = difference(at.displacement, e), d = bar.reference + stretch;
+    const double S = Compression::stress(bar.trial_stress(bar.strain(stretch))), inverse = bar.inverse_length;
+    add_pair_bound(
+        segments_[place(e)],
+        bar.section.area * inverse *
+            (bar.section.youngs_modulus * inverse * inverse * d * d.transpose() + S * Matrix3::Identity()),
+        row_sums);
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "core/parallel.hpp"
@@ -29,6 +30,7 @@ class TwoNodeBatch {
   TwoNodeBatch(const AxialPart& part, std::vector<std::array<Index, 2>> segments,
                std::span<const double> reference);
 
+  static std::string called() { return Compression::called; }
   Index size() const { return static_cast<Index>(segments_.size()); }
   Index slots() const { return size(); }
   const std::vector<std::array<Index, 2>>& cells() const { return segments_; }
@@ -43,7 +45,7 @@ class TwoNodeBatch {
                          core::Block elements) const noexcept;
   void stiffest_product(const Configuration& at, std::span<const double> direction, std::span<double> slots,
                         core::Block elements) const noexcept;
-  void add_stiffness_bound(const Configuration& at, std::span<double> node_sums) const noexcept;
+  void add_stiffness_bound(const Configuration& at, std::span<double> row_sums) const noexcept;
   double energy(const Configuration& at) const noexcept;
   void add_mass(std::span<double> node_masses) const noexcept;
 

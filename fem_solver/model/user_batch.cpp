@@ -52,11 +52,12 @@ void UserBatch<nodes>::stiffness_product(const Configuration& at, std::span<cons
 }
 
 template <std::size_t nodes>
-void UserBatch<nodes>::add_stiffness_bound(const Configuration& at, std::span<double> node_sums) const {
+void UserBatch<nodes>::add_stiffness_bound(const Configuration& at, std::span<double> row_sums) const {
   for (Index e = 0; e < size(); ++e) {
     const Values K = stiffness_of(at, e);
     for (std::size_t i = 0; i < nodes; ++i)
-      for (std::size_t j = 0; j < nodes; ++j) node_sums[place(cells_[place(e)][i])] += block(K, i, j).norm();
+      for (std::size_t j = 0; j < nodes; ++j)
+        Vector3::Map(&row_sums[3 * place(cells_[place(e)][i])]) += block(K, i, j).cwiseAbs().rowwise().sum();
   }
 }
 

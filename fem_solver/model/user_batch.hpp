@@ -3,6 +3,7 @@
 #include <array>
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "core/parallel.hpp"
@@ -23,6 +24,7 @@ class UserBatch {
   UserBatch(const MakeUserElement& make, const std::vector<double>& parameters, std::vector<Cell> cells,
             std::span<const double> reference);
 
+  static std::string called() { return "elements of this program"; }
   Index size() const { return static_cast<Index>(cells_.size()); }
   Index slots() const { return static_cast<Index>(nodes) * size(); }
   const std::vector<Cell>& cells() const { return cells_; }
@@ -41,7 +43,7 @@ class UserBatch {
                         core::Block elements) const noexcept {
     stiffness_product(at, direction, slots, elements);
   }
-  void add_stiffness_bound(const Configuration& at, std::span<double> node_sums) const;
+  void add_stiffness_bound(const Configuration& at, std::span<double> row_sums) const;
   double energy(const Configuration& at) const noexcept;
   double energy(const Configuration& at, Index e) const noexcept;
   void add_mass(std::span<double> node_masses) const noexcept;

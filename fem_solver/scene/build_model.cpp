@@ -131,11 +131,7 @@ Index Builder::add_node(const Vector3& position) {
 void Builder::put_sliders_on_ropes() {
   for (const auto& slide : scene_.slides) {
     const auto rope = std::ranges::find(parts_, slide.second.rope, &MeshedPart::name);
-    if (rope == parts_.end()) continue;  // which add_slide() refuses
-    try {
-      put_on_rope(slide, rope->segments, model_);
-    } catch (const core::ConfigError&) {  // a rope that is no line: add_slide() says it with the key
-    }
+    if (rope != parts_.end()) put_on_rope(slide, rope->segments, model_);  // else add_slide() refuses it
   }
 }
 
@@ -170,9 +166,9 @@ void Builder::add_elements(MeshedPart& part) {
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   const MeshedElements elements{fmt::format("{}: structure.parts.{}", part.scene->place, part.name),
                                 std::move(part.segments), std::move(part.triangles)};
-  model_.parts.push_back({part.name, make_elements(part.scene->element, elements, model_), std::move(nodes),
-                          breaking_load_of(part.scene->element), 0});
+  model_.parts.push_back({part.name, make_elements(part.scene->element, elements, model_), std::move(nodes)});
   Part& made = model_.parts.back();
+  made.breaking_load = breaking_load_of(part.scene->element);
   made.buckling_load = buckling_load_of(part.scene->element, made.elements);
 }
 

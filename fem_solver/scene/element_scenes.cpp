@@ -9,6 +9,15 @@
 namespace talus::fem {
 namespace {
 
+void describe_breaking_load(core::Fields& fields, std::optional<double>& load) {
+  fields.optional(
+      "breaking_load", load,
+      {.unit = "N",
+       .range = core::positive,
+       .help = "known strength, for the utilisation that `output.largest_forces` tells; nothing breaks "
+               "by it"});
+}
+
 void describe_axial(core::Fields& fields, AxialScene& axial) {
   fields.required(
       "area", axial.area,
@@ -27,12 +36,7 @@ void describe_axial(core::Fields& fields, AxialScene& axial) {
                       {.unit = "Pa",
                        .help = "second Piola-Kirchhoff stress of the reference state, tension positive",
                        .plausible = core::plausible::prestress});
-  fields.optional(
-      "breaking_load", axial.breaking_load,
-      {.unit = "N",
-       .range = core::positive,
-       .help =
-           "known strength, for the utilisation that `output.largest_forces` tells; nothing breaks by it"});
+  describe_breaking_load(fields, axial.breaking_load);
 }
 
 }  // namespace
@@ -129,12 +133,7 @@ void describe(core::Fields& fields, BrakeScene& brake) {
       {.unit = "m, N", .help = "pairs of elongation and force, from (0, 0); the last one ends the travel"});
   fields.required("mass_per_length", brake.mass_per_length,
                   {.unit = "kg/m", .range = core::positive, .help = "of the reference length"});
-  fields.optional(
-      "breaking_load", brake.breaking_load,
-      {.unit = "N",
-       .range = core::positive,
-       .help =
-           "known strength, for the utilisation that `output.largest_forces` tells; nothing breaks by it"});
+  describe_breaking_load(fields, brake.breaking_load);
   fields.section("end_stop", brake.end_stop,
                  "what happens past the travel; the initial stiffness where absent");
   fields.section("breaks", brake.breaks, "brakes that bear more are lost; none are where absent");

@@ -23,6 +23,16 @@ std::string key(const NamedSlide& slide) {
   return fmt::format("{}: structure.slides.{}", slide.second.place, slide.first);
 }
 
+/// The nodes of a rope along it.
+std::vector<Index> rope_nodes(const NamedSlide& slide, const std::vector<std::array<Index, 2>>& segments,
+                              const Model& model) {
+  try {
+    return RopeLine(segments, model.reference).nodes();
+  } catch (const core::ConfigError& error) {
+    throw core::ConfigError(fmt::format("{}.rope: {}", key(slide), error.what()));
+  }
+}
+
 std::vector<Index> rope_nodes(const NamedSlide& slide, const Model& model) {
   const auto part = std::ranges::find(model.parts, slide.second.rope, &Part::name);
   if (part == model.parts.end())
@@ -30,16 +40,11 @@ std::vector<Index> rope_nodes(const NamedSlide& slide, const Model& model) {
         fmt::format("{}.rope: the structure has no part '{}'", key(slide), slide.second.rope));
   return std::visit(
       [&](const auto& batch) -> std::vector<Index> {
-        if constexpr (std::tuple_size_v<std::decay_t<decltype(batch.cells().front())>> == 2) {
-          try {
-            return RopeLine(batch.cells(), model.reference).nodes();
-          } catch (const core::ConfigError& error) {
-            throw core::ConfigError(fmt::format("{}.rope: {}", key(slide), error.what()));
-          }
-        } else {
+        if constexpr (std::tuple_size_v<std::decay_t<decltype(batch.cells().front())>> == 2)
+          return rope_nodes(slide, batch.cells(), model);
+        else
           throw core::ConfigError(
               fmt::format("{}.rope: '{}' is not made of lines", key(slide), slide.second.rope));
-        }
       },
       part->elements);
 }
@@ -107,7 +112,7 @@ void describe(core::Fields& fields, SlideScene& slide) {
 
 void put_on_rope(const NamedSlide& slide, const std::vector<std::array<Index, 2>>& rope, Model& model) {
   if (!std::holds_alternative<ConstraintSlideScene>(slide.second.method) || rope.empty()) return;
-  const std::vector<Index> line = RopeLine(rope, model.reference).nodes();
+  const std::vector<Index> line = rope_nodes(slide, rope, model);
   const double farthest = farthest_share * length_of(line, model);
   double moved = 0;
   for (const Index node : find_node_set(model, key(slide) + ".nodes", slide.second.nodes)) {

@@ -34,6 +34,7 @@ using NamedSlide = std::pair<std::string, SlideScene>;
 
 /// Before elements are made: nodes that constraints are to lead start on their rope, so that no step has to take them
 /// there. @param rope segments of the rope's part, by node
+/// @throws core::ConfigError where they are no line
 void put_on_rope(const NamedSlide& slide, const std::vector<std::array<Index, 2>>& rope, Model& model);
 
 /// Adds a slide to the model: springs as a part, constraints beside the parts.

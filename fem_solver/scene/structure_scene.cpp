@@ -60,7 +60,7 @@ void describe(core::Fields& fields, StaticScene& method) {
 void describe(core::Fields& fields, EquilibriumScene& equilibrium) {
   fields.with_default(
       "steps", equilibrium.steps,
-      {.range = {.low = 1, .high = 1e6}, .help = "in which weight, loads and moved supports come on"});
+      {.range = {.low = 1, .high = 1e6}, .help = "in which weight comes on, and loads without a table do"});
   fields.with_default(
       "tolerance", equilibrium.tolerance,
       {.range = {.low = 1e-14, .high = 1e-2}, .help = "largest residual force over the largest force"});
@@ -132,6 +132,10 @@ void describe(core::Fields& fields, StructureScene& structure) {
           std::holds_alternative<EquilibriumScene>(structure.start->from),
       "start",
       "by `relaxation` or `after` knows no `slides` with `constraint`: take `equilibrium`, or `penalty`");
+  const auto* after = structure.start ? std::get_if<AfterScene>(&structure.start->from) : nullptr;
+  fields.rule(
+      !after || after->motion == AfterScene::Motion::comes_to_rest || structure.initial_velocities.empty(),
+      "initial_velocities", "contradict `start.after.motion: goes_on`, which has velocities of its own");
   fields.rule(!structure.start || structure.initial_displacements.empty(), "initial_displacements",
               "contradict `start`, which finds where the nodes are");
   fields.one_of(structure.method,

@@ -1,48 +1,31 @@
 #include "fem_solver/scene/unheld_parts.hpp"
 
 #include <algorithm>
-#include <array>
 #include <map>
-#include <numeric>
 #include <span>
+
+#include "fem_solver/model/joined_nodes.hpp"
 
 namespace talus::fem {
 namespace {
 
-/// Nodes that hang together: each points to another of its piece, the last to itself.
-class Pieces {
- public:
-  explicit Pieces(Index nodes) : towards_(static_cast<std::size_t>(nodes)) {
-    std::iota(towards_.begin(), towards_.end(), 0);
-  }
-  Index of(Index node) {
-    auto& next = towards_[static_cast<std::size_t>(node)];
-    while (next != towards_[static_cast<std::size_t>(next)]) next = towards_[static_cast<std::size_t>(next)];
-    return next;
-  }
-  void join(std::span<const Index> nodes) {
-    for (const Index node : nodes) towards_[static_cast<std::size_t>(of(node))] = of(nodes.front());
-  }
+void join_all(std::span<const Index> nodes, JoinedNodes& pieces) {
+  for (const Index node : nodes) pieces.join(node, nodes.front());
+}
 
- private:
-  std::vector<Index> towards_;
-};
-
-void join_line(const SlideLine& line, Pieces& pieces) {
-  pieces.join(line.rope);
-  pieces.join(line.sliders);
-  if (!line.rope.empty() && !line.sliders.empty())
-    pieces.join(std::array{line.rope.front(), line.sliders.front()});
+void join_line(const SlideLine& line, JoinedNodes& pieces) {
+  join_all(line.rope, pieces);
+  for (const Index slider : line.sliders) pieces.join(slider, line.rope.front());
 }
 
 }  // namespace
 
 std::vector<std::vector<std::string>> unheld_parts(const Model& model) {
-  Pieces pieces(model.nodes());
+  JoinedNodes pieces(static_cast<std::size_t>(model.nodes()));
   for (const Part& part : model.parts)
     std::visit(
         [&](const auto& batch) {
-          for (const auto& cell : batch.cells()) pieces.join(cell);
+          for (const auto& cell : batch.cells()) join_all(cell, pieces);
           if constexpr (requires { batch.line().sliders; }) join_line(batch.line(), pieces);
         },
         part.elements);

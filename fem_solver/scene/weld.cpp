@@ -4,6 +4,8 @@
 #include <nanoflann.hpp>
 #include <numeric>
 
+#include "fem_solver/model/joined_nodes.hpp"
+
 namespace talus::fem {
 namespace {
 
@@ -21,29 +23,24 @@ struct PointCloud {
 using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, PointCloud>, PointCloud,
                                                  3, std::size_t>;
 
-/// Nodes that become one, each group with the parts they are of.
-class Groups {
+/// Nodes that become one, and the parts that each group is of.
+class Welds {
  public:
-  explicit Groups(std::span<const Index> part_of) : towards_(part_of.size()) {
-    std::iota(towards_.begin(), towards_.end(), 0);
+  explicit Welds(std::span<const Index> part_of) : nodes_(part_of.size()) {
     for (const Index part : part_of) parts_.push_back({part});
   }
-  /// The lowest-numbered of its group.
-  Index of(Index node) {
-    auto& next = towards_[static_cast<std::size_t>(node)];
-    return next == node ? node : next = of(next);
-  }
+  Index of(Index node) { return nodes_.of(node); }
   /// Unless two nodes of one part would become one.
   void join(Index a, Index b) {
     const auto [into, from] = std::minmax({of(a), of(b)});
     auto &own = parts_[static_cast<std::size_t>(into)], &more = parts_[static_cast<std::size_t>(from)];
     if (into == from || std::ranges::find_first_of(own, more) != own.end()) return;
     own.insert(own.end(), more.begin(), more.end());
-    towards_[static_cast<std::size_t>(from)] = into;
+    nodes_.join(into, from);
   }
 
  private:
-  std::vector<Index> towards_;
+  JoinedNodes nodes_;
   std::vector<std::vector<Index>> parts_;
 };
 
@@ -72,10 +69,10 @@ std::vector<Index> weld_map(std::span<const double> positions, std::span<const I
         pairs.push_back({squared, static_cast<Index>(i), static_cast<Index>(j)});
   }
   std::ranges::sort(pairs);
-  Groups groups(part_of);
-  for (const NearPair& pair : pairs) groups.join(pair.a, pair.b);
+  Welds welds(part_of);
+  for (const NearPair& pair : pairs) welds.join(pair.a, pair.b);
   std::vector<Index> becomes(part_of.size());
-  for (std::size_t i = 0; i < becomes.size(); ++i) becomes[i] = groups.of(static_cast<Index>(i));
+  for (std::size_t i = 0; i < becomes.size(); ++i) becomes[i] = welds.of(static_cast<Index>(i));
   return becomes;
 }
 

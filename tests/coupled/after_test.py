@@ -34,11 +34,16 @@ class Alone(unittest.TestCase):
 
     def test_a_run_that_goes_on_is_the_run_in_one_piece(self):
         half = Run(BRAKED, KEEP + "time: {end: 0.25 s}\n", program="fem_solver")
-        rest = Run(BRAKED, after(half, ", motion: goes_on") + "time: {end: 0.25 s}\noutput: {fields_every: ~}\n", program="fem_solver")
+        rest = Run(BRAKED, after(half, ", motion: goes_on", also="initial_velocities: [], ") + "time: {end: 0.25 s}\noutput: {fields_every: ~}\n", program="fem_solver")
         whole = self.first
         # The start of a leapfrog takes the velocity as that of its time, half a step off: of first order in the step of 20 us.
         a, b = rest.at("weight.displacement_z_m", 0.2), whole.at("weight.displacement_z_m", 0.45)
         self.assertAlmostEqual(a, b, delta=2e-3 * abs(b))
+
+    def test_velocities_of_both_the_scene_and_the_other_run_are_refused(self):
+        refused = Run(BRAKED, after(self.first, ", motion: goes_on"), program="fem_solver")
+        self.assertEqual(refused.done.returncode, 2)
+        self.assertIn("which has velocities of its own", refused.done.stderr)
 
     def test_another_structure_and_a_result_without_a_state_are_refused(self):
         other = Run("examples/hanging_net", after(self.first), program="fem_solver")

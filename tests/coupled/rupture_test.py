@@ -60,6 +60,22 @@ class Perforation(unittest.TestCase):
                 self.assertLess(run.column("boulder.position_z_m")[-1], -0.4)
                 self.assertLess(run.energy_error(), 2e-2)
 
+    def test_a_run_that_goes_on_from_a_checkpoint_ends_like_the_one_in_one_piece(self):
+        half = Run(NET, "time: {end: 20 ms}\noutput: {fields_every: ~}\ncoupling: {checkpoint_every: 1 us}\n")
+        self.assertGreater(half.column("net.broken_1")[-1], 0)
+        rest = Run(NET, "output: {fields_every: ~}\ncoupling: {checkpoint_every: 1 us}\n", options=("--restart", str(half.result / "checkpoint.h5")))
+        for column in ("boulder.velocity_z_m_per_s", "net.broken_1", "net.axial_force_max_N"):
+            self.assertEqual(rest.column(column)[-1], self.through.column(column)[-1])
+        self.assertEqual(rest.summary["tables"], self.through.summary["tables"])
+
+    def test_a_block_of_many_balls_falls_through_too(self):
+        block = ("particles: {spheres: {boulder: ~}, rocks: {boulder: {block: {edge: 0.4 m}, material: rock, at: [1.45, 1.55, 0.3], velocity: [0, 0, -20], "
+                 "turned: [0.3, 0.2, 0.1]}}}\noutput: {fields_every: ~}\n")
+        run = Run(NET, block)
+        self.assertLess(run.column("boulder.position_z_m")[-1], -0.5)
+        self.assertGreater(run.column("net.broken_1")[-1], 4)
+        self.assertLess(run.energy_error(), 2e-2)
+
     def test_a_boundary_with_other_cells_is_refused(self):
         refused = Run(NET, "interface: {boundary: {same_as_structure: ~, square_net: {corner: [0 m, 0 m, 0 m], size: [3 m, 3 m], pitch: 0.3 m, "
                            "wire_diameter: 4 mm, material: wire}}}\n")

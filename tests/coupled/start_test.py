@@ -62,6 +62,19 @@ class StartOfParticles(unittest.TestCase):
         self.assertIn("starts inside of a wire", refused.done.stderr)
 
 
+class RopesWithFriction(unittest.TestCase):
+    def test_a_net_hangs_on_ropes_with_friction_before_a_rock_comes(self):
+        rub = "{sliding_cable: {friction: 0.2}}"
+        scene = ("time: {end: 60 ms}\nstructure: {gravity: [0, 0, -9.81], start: {relaxation: {}}, parts: {south: %s, east: %s, north: %s, west: %s}}\n"
+                 "particles: {spheres: {boulder: {at: [1.45, 1.55, 0.25]}}}\noutput: {fields_every: ~}\n" % (rub, rub, rub, rub))
+        run = Run("examples/net_sliding_edges", scene)
+        rock = run.energy("particles.kinetic_J")[0]
+        before = run.column("time_s") < 5e-3
+        self.assertLess(np.abs(run.energy("structure.kinetic_J")[before]).max(), 1e-6 * rock)
+        self.assertGreater(run.peak("boulder.contact_force_z_N"), 100)
+        self.assertLess(run.energy_error(), 1e-2)
+
+
 class OtherWays(unittest.TestCase):
     def test_every_scheme_and_method_starts_from_the_sag(self):
         for changes in ("coupling: {serial_explicit: ~, parallel_explicit: {}}\n", "coupling: {serial_explicit: ~, serial_implicit: {}}\n",

@@ -82,6 +82,48 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("bounds of stiffness give the highest frequency of a square net along its axes") {
+  // Of an endless net: w^2 = 4 k/m with m of four half cables; at the rim a node has more mass for its cables.
+  const double w = frequency_at_rest(tests::net<BarBatch>(bar, 0.1, 12));
+  const Model net = tests::net<BarBatch>(bar, 0.1, 12);
+  CHECK(frequency_bound(net, std::vector<double>(net.reference.size(), 0.0)).squared < 1.1 * w * w);
+}
+
+TEST_CASE("bounds of stiffness hold for every kind of part, slack or taut, bent or straight") {
+  // Along and up a frame of five nodes; w of everything taut that can be, as the step limit has it.
+  const std::vector<double> nodes{0, 0, 0, 1, 0.1, 0, 2, 0, 0.2, 3, 0.3, 0, 4, 0, 0};
+  const std::vector<std::array<Index, 2>> line{{0, 1}, {1, 2}, {2, 3}, {3, 4}};
+  const AxialPart rope{.section = {1e-4, 1e9, 1e6}, .density = 7850};
+  const ElasticRope elastic{rope.section};
+  const std::vector<ElementBatch> kinds{
+      CableBatch(rope, line, nodes),
+      SlidingCableBatch(rope, 0, line, nodes),
+      FrictionalCableBatch({rope, {0.1}, 0}, line, nodes),
+      ElasticPlasticBatch({{rope.section, 5e7, 1e8}, 0.785}, line, nodes),
+      BrakeBatch({BrakeLaw({{{0.02, 40e3}, {0.5, 60e3}}, 5e6, 0.05}), 1}, line, nodes),
+      BreakingCableBatch({{elastic, {.force = 1e9}}, 0.785}, line, nodes),
+      BreakingRopeBatch(SlidingCableBatch(rope, 0, line, nodes), {.force = 1e9}),
+      TensionFieldBatch({0.01, 1000, Vector3(1, 0, 0)},
+                        TensionField<ExactWrinkles>(PlaneElasticity::from(IsotropicSheet{1e8, 0.3}), {}),
+                        {{0, 1, 2}, {2, 3, 4}}, nodes)};
+  std::mt19937_64 random(6);
+  std::uniform_real_distribution<double> move(-0.2, 0.2);
+  for (const ElementBatch& kind : kinds) {
+    Model model;
+    model.reference = nodes;
+    model.parts.push_back({"part", kind, {}});
+    lump_masses(model);
+    Assembly assembly(model);
+    for (int trial = 0; trial < 20; ++trial) {
+      std::vector<double> displacement(nodes.size());
+      for (double& u : displacement) u = move(random);
+      const double w = largest_frequency(assembly, displacement);
+      CAPTURE(kind.index(), trial);
+      CHECK(frequency_bound(model, displacement).squared > 0.99 * w * w);  // w has its residual added
+    }
+  }
+}
+
 TEST_CASE(
     "a run that stretches a rope ends where its step becomes unstable, and says what the limit fell to") {
   // The rope's end is led away slowly: e = ((1 + x/2)^2 - 1)/2, stiffness 1 + 3 e times that at the start.
