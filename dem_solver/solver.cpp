@@ -1,5 +1,7 @@
 #include "dem_solver/solver.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <string>
 
@@ -34,11 +36,12 @@ ParticleSolver::ParticleSolver(ParticleModel model)
       step_(model.step),
       skin_(model.skin),
       threads_(model.threads),
+      may_be_unstable_(model.may_be_unstable),
       contacts_(make_contact_model(model.law)),
       gates_(std::move(model.gates)) {
   if (model.implicit_contact)
     implicit_contact_ = {.control = *model.implicit_contact, .gravity = model.gravity};
-  spheres_.add(model.spheres, law_.rotation());
+  spheres_.add(model.spheres, {.rotation = law_.rotation(), .facing = law_.spreads_over_area()});
   rocks_ = Rocks(model.rocks, model.spheres);
   if (skin_ <= 0 && spheres_.size() > 0) {
     main_radius_ = main_radius(spheres_);
@@ -68,6 +71,7 @@ void ParticleSolver::step() {
   if (!rocks_.empty()) move_rocks();
   core::lap(stage_clock_, motion);
   watch_motion();
+  if (!rocks_.empty() && !may_be_unstable_) watch_rocks();
   previous_step_ = step_;
   ++steps_done_;
   if (!gates_.empty()) gates_.watch_near({spheres_, rocks_, time()});
@@ -241,6 +245,21 @@ void ParticleSolver::watch_motion() {
   if (!motion.finite) report_not_finite();
   moved_.alone += motion.largest_speed * step_;
   moved_.towards_another += 2 * motion.largest_speed * step_;
+}
+
+void ParticleSolver::watch_rocks() const {
+  const Rocks::Stiffest stiffest = rocks_.stiffest(spheres_, place_, step_);
+  constexpr double limit = 4;  // of the leapfrog, (w dt)^2
+  if (!(stiffest.ratio > limit)) return;
+  throw core::NumericalError(
+      {.what = fmt::format(
+           "the contacts of a rock are together too stiff for the step: {:.3g} s is its limit now, "
+           "{:.3g} s the step",
+           step_ * std::sqrt(limit / stiffest.ratio), step_),
+       .entity = "rock " + rocks_.name(stiffest.rock),
+       .step = steps_done_,
+       .time = time(),
+       .value = stiffest.ratio});
 }
 
 void ParticleSolver::report_not_finite() const {

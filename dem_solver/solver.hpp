@@ -35,6 +35,8 @@ struct ParticleModel {
   double skin = 0;  ///< m; of the neighbour lists; 0: follows from how fast the spheres move
   int threads = 1;
   std::vector<Gate> gates;
+  bool may_be_unstable =
+      false;  ///< whether to go on with a rock on more contacts than the step is short enough for
 };
 
 /// Stages of a step whose time is told apart where the scene asks for it.
@@ -144,6 +146,7 @@ class ParticleSolver {
   void move_block(Index block) noexcept;
   void move_rocks() noexcept;
   void watch_motion();
+  void watch_rocks() const;
   [[noreturn]] void report_not_finite() const;
   ContactStage contact_stage() noexcept;
   double gravity_work_level() const noexcept;
@@ -168,6 +171,7 @@ class ParticleSolver {
   double main_radius_ = 0;    ///< m; of the most frequent size class; 0: the skin is given
   std::optional<ImplicitContact> implicit_contact_;
   int threads_ = 1;
+  bool may_be_unstable_ = false;
 
   PairList pair_list_;
   PlaneList plane_list_;

@@ -45,6 +45,9 @@ inline constexpr Plausible spin{
 inline constexpr Plausible rotation{.usual = {.high = 6.3}, .hint = "degrees are written deg"};
 inline constexpr Plausible gravity{
     .usual = {.high = 30}, .possible = {.high = 1e4}, .hint = "free fall on Earth is 9.81 m/s^2"};
+inline constexpr Plausible foundation{.usual = {.low = 1e4, .high = 1e14},
+                                      .possible = {.low = 1, .high = 1e20},
+                                      .hint = "soil has 10 to 1000 MPa/m"};
 inline constexpr Plausible stiffness{.usual = {.low = 1, .high = 1e14},
                                      .possible = {.low = 0.1, .high = 1e20},
                                      .hint = "meganewtons are written MN; mN is a thousandth of a newton"};

@@ -174,9 +174,23 @@ class BoundaryContacts : public ContactBatch<Law> {
             .overlap = radius - contact.normal.w,
             // A thin wire presses deeper than a flat face: R* of crossed cylinders, sqrt(R R r/(R + r)).
             .reduced_radius = wire > 0 ? std::sqrt(radius * radius * wire / (radius + wire)) : radius,
+            .area = contact_area(context.spheres, i, triple<double>(contact.normal), wire),
             .partner_velocity = context.boundary.velocity_at(feature, contact.weights),
             .velocity_gain = {},
             .parameters = &context.table(context.spheres.material[i], feature.material)};
+  }
+
+  /// m^2; a wire covers a strip of the sphere's share of the surface, so that what a wire along a rock meets is its own
+  /// width times its length however finely the rock is filled.
+  static double contact_area(const Spheres& spheres, Index i, const Triple<double>& normal,
+                             double wire_radius) noexcept {
+    if constexpr (Law::spreads_over_area) {
+      const double seen = seen_area<double>(spheres.facing[i], normal),
+                   width = std::sqrt(spheres.facing[i].w);
+      return wire_radius > 0 ? seen * std::min(1.0, 2 * wire_radius / width) : seen;
+    } else {
+      return 0;
+    }
   }
 
   static void evaluate(const Context& context, Index i, BoundaryContact& contact,

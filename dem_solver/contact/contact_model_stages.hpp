@@ -31,9 +31,10 @@ template <class Law>
 int ContactModel<Law>::with_boundary(const ContactStage& s) noexcept {
   const typename BoundaryContacts<Law>::Context context{s.spheres, s.boundary, s.boundary_list,
                                                         s.table,   s.step,     s.threads};
-  if (s.implicit_contact)
-    return boundary_.evaluate_implicitly(context, *s.implicit_contact,
-                                         {s.spheres, s.rocks, s.place, s.boundary});
+  if constexpr (Law::has_dashpots)
+    if (s.implicit_contact)
+      return boundary_.evaluate_implicitly(context, *s.implicit_contact,
+                                           {s.spheres, s.rocks, s.place, s.boundary});
   boundary_.evaluate(context);
   return 0;
 }

@@ -18,9 +18,9 @@ TALUS_INLINE Quad<Lanes> gathered(const std::vector<Row>& rows, const Place& pla
 /// Adds to the rows that place(k) of the first `active` contacts name, one after the other: two of them may
 /// name the same.
 template <class Place>
-TALUS_INLINE void scatter(std::vector<Row>& rows, const Place& place, int active,
-                          const Triple<Lanes>& added) noexcept {
-  const Quad<Lanes> by_contact = transposed(added.x, added.y, added.z, Lanes{});
+TALUS_INLINE void scatter(std::vector<Row>& rows, const Place& place, int active, const Triple<Lanes>& added,
+                          Lanes fourth = Lanes{}) noexcept {
+  const Quad<Lanes> by_contact = transposed(added.x, added.y, added.z, fourth);
   const Lanes value[] = {by_contact.x, by_contact.y, by_contact.z, by_contact.w};
   for (int k = 0; k < active; ++k) {
     Row& to = rows[place(k)];

@@ -4,6 +4,7 @@
 #include <concepts>
 
 #include "dem_solver/contact/friction.hpp"
+#include "dem_solver/contact/hysteretic.hpp"
 #include "dem_solver/contact/normal.hpp"
 #include "dem_solver/contact/rolling.hpp"
 #include "dem_solver/contact/work.hpp"
@@ -16,6 +17,7 @@ template <class Real>
 struct ContactLoad {
   Triple<Real> force;           ///< N
   Triple<Real> rolling_torque;  ///< N m; zero and unused without rolling resistance
+  Real stiffness{};             ///< N/m; of the normal force, for limits of the step
 };
 
 /// Energy a contact has taken out of the motion since the last evaluation, J.
@@ -33,10 +35,13 @@ struct ContactLaw {
   static constexpr bool has_friction = !std::same_as<FrictionTerm, NoTerm>;
   static constexpr bool has_rolling = !std::same_as<RollingTerm, NoTerm>;
   static constexpr bool has_ledger = !std::same_as<LedgerTerm, NoTerm>;
+  static constexpr bool has_dashpots = NormalTerm::memory_rows == 0;
+  static constexpr bool spreads_over_area = NormalTerm::spreads_over_area;
   static_assert(has_friction || !has_rolling, "rolling resistance needs friction, which turns the spheres");
 
   static constexpr int rolling_row = FrictionTerm::memory_rows;
-  static constexpr int ledger_row = rolling_row + RollingTerm::memory_rows;
+  static constexpr int normal_row = rolling_row + RollingTerm::memory_rows;
+  static constexpr int ledger_row = normal_row + NormalTerm::memory_rows;
   /// Rows that a contact remembers from one step to the next; all zero before it begins.
   static constexpr int memory_rows = ledger_row + LedgerTerm::memory_rows;
   template <class Real>
@@ -49,8 +54,9 @@ struct ContactLaw {
   TALUS_INLINE static ContactLoad<Real> evaluate(const Touch<Real>& touch,
                                                  const ContactParameters<Real>& parameters, double step,
                                                  Memory<Real>& memory, ContactLoss<Real>& loss) noexcept {
-    const NormalForce<Real> normal = NormalTerm::template force<Real>(touch, parameters);
-    ContactLoad<Real> load{normal.total * touch.normal, {}};
+    const Real lost_before = lost(touch, parameters, memory);
+    const NormalForce<Real> normal = normal_force(touch, parameters, memory);
+    ContactLoad<Real> load{normal.total * touch.normal, {}, normal.stiffness};
     Triple<Real> tangential{};
     if constexpr (has_friction) {
       tangential = FrictionTerm::template force<Real>(touch, normal, parameters, step, memory[0]);
@@ -62,8 +68,12 @@ struct ContactLaw {
       load.rolling_torque =
           RollingTerm::template torque<Real>(touch, normal, parameters, step, rolling_memory);
     }
-    if constexpr (has_ledger)
+    if constexpr (has_ledger) {
       loss = account(touch, parameters, normal, tangential, load.rolling_torque, step, memory);
+      if constexpr (NormalTerm::memory_rows > 0)
+        loss.damping =
+            loss.damping + (touch.overlap > Real{} ? lost(touch, parameters, memory) - lost_before : Real{});
+    }
     return load;
   }
 
@@ -81,6 +91,33 @@ struct ContactLaw {
   }
 
  private:
+  template <class Real>
+  TALUS_INLINE static NormalForce<Real> normal_force(const Touch<Real>& touch,
+                                                     const ContactParameters<Real>& parameters,
+                                                     Memory<Real>& memory) noexcept {
+    if constexpr (NormalTerm::memory_rows > 0)
+      return NormalTerm::template force<Real>(touch, parameters, memory[normal_row]);
+    else
+      return NormalTerm::template force<Real>(touch, parameters);
+  }
+  template <class Real>
+  TALUS_INLINE static Real normal_energy(const Touch<Real>& touch, const ContactParameters<Real>& parameters,
+                                         const Memory<Real>& memory) noexcept {
+    if constexpr (NormalTerm::memory_rows > 0)
+      return NormalTerm::template energy<Real>(touch, parameters, memory[normal_row]);
+    else
+      return NormalTerm::template energy<Real>(touch, parameters);
+  }
+  /// J; by a normal law that remembers, since the contact began.
+  template <class Real>
+  TALUS_INLINE static Real lost(const Touch<Real>& touch, const ContactParameters<Real>& parameters,
+                                const Memory<Real>& memory) noexcept {
+    if constexpr (has_ledger && NormalTerm::memory_rows > 0)
+      return NormalTerm::template lost<Real>(touch, parameters, memory[normal_row]);
+    else
+      return Real{};
+  }
+
   template <class Real>
   TALUS_INLINE static ContactLoss<Real> account(const Touch<Real>& touch,
                                                 const ContactParameters<Real>& parameters,
@@ -104,7 +141,7 @@ struct ContactLaw {
       energies.z = rolling_power;
     }
     forces = quad(tangential, damping_force);
-    energies.x = NormalTerm::template energy<Real>(touch, parameters);
+    energies.x = normal_energy(touch, parameters, memory);
     energies.y = held;
     return loss;
   }

@@ -27,6 +27,19 @@ PairParameters pair_parameters(const HertzContact& contact, const EffectiveModul
           .rolling = {}};
 }
 
+PairParameters pair_parameters(const HystereticContact& contact, const EffectiveModuli& moduli) noexcept {
+  return {.normal = Row{{moduli.normal, moduli.shear, contact.restitution * contact.restitution, 0}},
+          .friction = {},
+          .rolling = {}};
+}
+
+PairParameters pair_parameters(const FoundationContact& contact) noexcept {
+  return {.normal = Row{{contact.stiffness_per_area, contact.tangential_ratio * contact.stiffness_per_area,
+                         contact.restitution * contact.restitution, 0}},
+          .friction = {},
+          .rolling = {}};
+}
+
 PairParameters pair_parameters(const LinearContact& contact) noexcept {
   return {.normal = Row{{contact.stiffness, contact.tangential_ratio * contact.stiffness,
                          oscillator_damping_ratio(contact.restitution), std::sqrt(contact.tangential_ratio)}},

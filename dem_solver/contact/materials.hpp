@@ -19,6 +19,14 @@ struct Material {
 struct HertzContact {
   double restitution = 1;  ///< in (0, 1]
 };
+struct HystereticContact {
+  double restitution = 1;  ///< in (0, 1]
+};
+struct FoundationContact {
+  double stiffness_per_area = 0;  ///< Pa/m
+  double tangential_ratio = 1;    ///< tangential over normal stiffness
+  double restitution = 1;         ///< in (0, 1]
+};
 struct LinearContact {
   double stiffness = 0;         ///< N/m
   double tangential_ratio = 1;  ///< tangential over normal stiffness
@@ -42,6 +50,8 @@ struct EffectiveModuli {
 EffectiveModuli effective_moduli(const Material& a, const Material& b) noexcept;
 
 PairParameters pair_parameters(const HertzContact& contact, const EffectiveModuli& moduli) noexcept;
+PairParameters pair_parameters(const HystereticContact& contact, const EffectiveModuli& moduli) noexcept;
+PairParameters pair_parameters(const FoundationContact& contact) noexcept;
 PairParameters pair_parameters(const LinearContact& contact) noexcept;
 void set_friction(PairParameters& parameters, const FrictionCoefficients& friction) noexcept;
 void set_rolling(PairParameters& parameters, const RollingCoefficients& rolling) noexcept;

@@ -5,12 +5,22 @@
 /// Normal laws. Each has energy, force and stiffness side by side.
 namespace talus::dem {
 
-/// The normal force law's contract: see Hertz.
+/// The normal force law's contract: see Hertz. A law that remembers (memory_rows = 1: see Hysteretic) moves its
+/// memory on in force(); `lost` is what it has taken out of the motion since the contact began, J. When the contact
+/// is seen from the partner x, y and z turn their signs, w does not.
 template <class Law>
-concept NormalLaw = requires(const Touch<double>& touch, const ContactParameters<double>& p) {
-  { Law::template force<double>(touch, p) } -> std::same_as<NormalForce<double>>;
-  { Law::template energy<double>(touch, p) } -> std::same_as<double>;
-};
+concept NormalLaw = (Law::memory_rows == 0 &&
+                     requires(const Touch<double>& touch, const ContactParameters<double>& p) {
+                       { Law::template force<double>(touch, p) } -> std::same_as<NormalForce<double>>;
+                       { Law::template energy<double>(touch, p) } -> std::same_as<double>;
+                     }) ||
+                    (Law::memory_rows == 1 &&
+                     requires(const Touch<double>& touch, const ContactParameters<double>& p,
+                              Quad<double>& memory) {
+                       { Law::template force<double>(touch, p, memory) } -> std::same_as<NormalForce<double>>;
+                       { Law::template energy<double>(touch, p, memory) } -> std::same_as<double>;
+                       { Law::template lost<double>(touch, p, memory) } -> std::same_as<double>;
+                     });
 
 /// Hertz spring with the dashpot of constant restitution [Hertz 1882; Tsuji, Tanaka, Ishida, Powder Technol.
 /// 71 (1992) 239, eq. 8-9 for the form of the dashpot; Thornton, Cummins, Cleary, Powder Technol. 233 (2013)
@@ -30,6 +40,9 @@ concept NormalLaw = requires(const Touch<double>& touch, const ContactParameters
 /// Valid for a << R*, smooth spheres, no adhesion. Tests: verification/particles "hertz", unit "The normal
 /// force is the derivative of its energy".
 struct Hertz {
+  static constexpr int memory_rows = 0;
+  static constexpr bool spreads_over_area = false;
+
   template <class Real>
   TALUS_INLINE static NormalForce<Real> force(const Touch<Real>& touch,
                                               const ContactParameters<Real>& p) noexcept {
@@ -62,6 +75,9 @@ struct Hertz {
 /// Tests: "A collision on linear springs lasts as long as the oscillator and rebounds as asked for", unit
 /// "The normal force is the derivative of its energy".
 struct LinearSpring {
+  static constexpr int memory_rows = 0;
+  static constexpr bool spreads_over_area = false;
+
   template <class Real>
   TALUS_INLINE static NormalForce<Real> force(const Touch<Real>& touch,
                                               const ContactParameters<Real>& p) noexcept {

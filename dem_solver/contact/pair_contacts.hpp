@@ -160,13 +160,19 @@ class PairContacts : public ContactBatch<Law> {
       touch.reduced_inertia = ia * ib / (ia + ib);
     }
 
+    if constexpr (Law::spreads_over_area) {
+      const Lanes area_a = seen_area(gathered(s.facing, first), touch.normal),
+                  area_b = seen_area(gathered(s.facing, second), -1.0 * touch.normal);
+      touch.area = smaller(area_a, area_b);
+    }
+
     const auto parameters = gathered_parameters<Law>([&](int k) -> const PairParameters& {
       return context.table(s.material[first(k)], s.material[second(k)]);
     });
     const ContactLoad<Lanes> load = this->loads_of_four(touch, parameters, context.step, slot, active, work);
 
-    scatter(s.force, first, active, load.force);
-    scatter(s.force, second, active, -1.0 * load.force);
+    scatter(s.force, first, active, load.force, load.stiffness);
+    scatter(s.force, second, active, -1.0 * load.force, load.stiffness);
     if constexpr (Law::has_friction) {
       const Triple<Lanes> turn = cross(load.force, touch.normal);
       Triple<Lanes> on_a = arm_a * turn, on_b = arm_b * turn;

@@ -82,6 +82,8 @@ class PlaneContacts : public ContactBatch<Law> {
                                            of_contacts([&](int k) { return plane(k).normal.z; })},
                                 .overlap = of_contacts([&](int k) { return contacts[k].overlap; })};
     meeting.reduced_radius = meeting.position.w;
+    if constexpr (Law::spreads_over_area)
+      meeting.area = seen_area(gathered(s.facing, sphere), meeting.normal);
     if constexpr (Law::has_friction) meeting.spin = triple(gathered(s.spin, sphere));
     const auto parameters = gathered_parameters<Law>([&](int k) -> const PairParameters& {
       return context.table(s.material[sphere(k)], plane(k).material);
@@ -89,7 +91,7 @@ class PlaneContacts : public ContactBatch<Law> {
     const ContactLoad<Lanes> load =
         this->loads_of_four(touch_of<Law>(meeting), parameters, context.step, slot, active, work);
 
-    scatter(s.force, sphere, active, load.force);
+    scatter(s.force, sphere, active, load.force, load.stiffness);
     if constexpr (Law::has_friction) scatter(s.torque, sphere, active, torque_of<Law>(meeting, load));
   }
 };

@@ -14,6 +14,7 @@ struct RigidMeeting {
   Triple<Real> normal;              ///< unit vector towards the sphere's centre
   Real overlap{};                   ///< m; > 0 touching
   Real reduced_radius{};            ///< m; the sphere's own, less where a wire is thin
+  Real area{};                      ///< m^2; of the sphere's surface; unused by laws of points
   Triple<Real> partner_velocity{};  ///< m/s; of the contact point on the partner
 
   /// m; from the sphere's centre to the contact point.
@@ -29,6 +30,7 @@ TALUS_INLINE Touch<Real> touch_of(const RigidMeeting<Real>& at) noexcept {
   touch.velocity = triple(at.velocity) - at.partner_velocity;
   touch.reduced_radius = at.reduced_radius;
   touch.reduced_mass = at.velocity.w;
+  if constexpr (Law::spreads_over_area) touch.area = at.area;
   if constexpr (Law::has_friction) {
     touch.spin = at.spin;
     touch.velocity = touch.velocity - at.arm() * cross(at.spin, at.normal);
@@ -54,6 +56,7 @@ struct RigidTouch {
   Triple<double> normal;            ///< unit vector towards the sphere's centre
   double overlap = 0;               ///< m; > 0 touching
   double reduced_radius = 0;        ///< m; the sphere's own, less where a wire is thin
+  double area = 0;                  ///< m^2; of the sphere's surface, less where a wire is thin
   Triple<double> partner_velocity;  ///< m/s; of the contact point on the partner
   Triple<double> velocity_gain;     ///< m/s; of the sphere over the partner from t_n - step/2 to
                                     ///< t_n + step/2 where the contact is implicit, else zero
@@ -68,6 +71,7 @@ RigidMeeting<double> meeting_of(const Spheres& spheres, const RigidTouch& at) no
                                .normal = at.normal,
                                .overlap = at.overlap,
                                .reduced_radius = at.reduced_radius,
+                               .area = at.area,
                                .partner_velocity = at.partner_velocity};
   if constexpr (Law::has_friction) meeting.spin = triple<double>(spheres.spin[at.sphere]);
   return meeting;
@@ -102,6 +106,7 @@ Triple<double> evaluate_rigid_contact(Spheres& spheres, const RigidTouch& at, do
   for (int k = 0; k < Law::memory_rows; ++k) stored[k] = Row{memory[k]};
 
   add(spheres.force[at.sphere], load.force);
+  spheres.force[at.sphere].w += load.stiffness;
   if constexpr (Law::has_friction) add(spheres.torque[at.sphere], torque_of<Law>(meeting, load));
   if constexpr (Law::has_ledger) work += {.damping = loss.damping, .friction = loss.friction};
   return load.force;

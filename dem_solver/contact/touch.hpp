@@ -23,6 +23,7 @@ struct Touch {
   Real reduced_radius{};   ///< m; R*
   Real reduced_mass{};     ///< kg; m*
   Real reduced_inertia{};  ///< kg m^2; about the contact point; filled for laws with rolling resistance only
+  Real area{};             ///< m^2; of the surface behind the contact; filled for laws that spread over it
 };
 
 /// What a pair of materials means for each term, computed once per scene.
@@ -43,7 +44,7 @@ template <class Real>
 struct NormalForce {
   Real elastic{};               ///< N; >= 0
   Real total{};                 ///< N; >= 0, dashpot included
-  Real stiffness{};             ///< N/m; d(elastic)/d(overlap)
+  Real stiffness{};             ///< N/m; d(elastic)/d(overlap), the larger one where loading differs
   Real damping{};               ///< N s/m; of the dashpot
   Real tangential_stiffness{};  ///< N/m; 0 when apart
   Real tangential_damping{};    ///< N s/m

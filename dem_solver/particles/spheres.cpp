@@ -4,18 +4,19 @@
 
 namespace talus::dem {
 
-void Spheres::add(std::span<const SphereInput> input, bool with_rotation) {
+void Spheres::add(std::span<const SphereInput> input, const Wanted& wanted) {
   const bool has_rocks = std::ranges::any_of(input, [](const SphereInput& s) { return s.rock >= 0; });
   for (const SphereInput& sphere : input) {
     id.push_back(size());
     position.push_back(row(sphere.position, sphere.radius));
     velocity.push_back(row(sphere.velocity, sphere.mass));
     material.push_back(sphere.material);
-    if (with_rotation) spin.push_back(row(sphere.spin));
+    if (wanted.rotation) spin.push_back(row(sphere.spin));
+    if (wanted.facing) facing.push_back(row(sphere.facing, sphere.area));
     if (has_rocks) rock.push_back(sphere.rock);
   }
   force.resize(position.size());
-  if (with_rotation) torque.resize(position.size());
+  if (wanted.rotation) torque.resize(position.size());
 }
 
 void Spheres::clear_loads(core::Block run) noexcept {
@@ -45,6 +46,7 @@ void Spheres::reorder(std::span<const Index> order) {
   permute(material, order);
   permute(id, order);
   permute(rock, order);
+  permute(facing, order);
 }
 
 std::vector<Index> Spheres::places() const {

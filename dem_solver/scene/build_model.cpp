@@ -21,7 +21,12 @@ Material material_of(const std::string& name, const MaterialScene& scene) {
 }
 
 PairParameters normal_parameters(const HertzScene& law, const EffectiveModuli& moduli) {
+  if (law.loss == HertzScene::Loss::hysteretic)
+    return pair_parameters(HystereticContact{law.restitution}, moduli);
   return pair_parameters(HertzContact{law.restitution}, moduli);
+}
+PairParameters normal_parameters(const FoundationScene& law, const EffectiveModuli&) {
+  return pair_parameters(FoundationContact{law.stiffness_per_area, law.tangential_ratio, law.restitution});
 }
 PairParameters normal_parameters(const LinearScene& law, const EffectiveModuli&) {
   return pair_parameters(LinearContact{law.stiffness, law.tangential_ratio, law.restitution});
@@ -61,6 +66,11 @@ PairTable pair_table(const ParticlesScene& particles) {
   return table;
 }
 
+/// m^2; what a sphere shows to a partner.
+double disc_of(double radius) {
+  return std::numbers::pi * radius * radius;
+}
+
 SphereInput sphere_of(const ParticlesScene& particles, const SphereScene& scene) {
   const auto material = material_index(particles, scene.material);
   const double volume = 4.0 / 3 * std::numbers::pi * scene.radius * scene.radius * scene.radius;
@@ -69,7 +79,9 @@ SphereInput sphere_of(const ParticlesScene& particles, const SphereScene& scene)
           .spin = triple_of(scene.spin),
           .radius = scene.radius,
           .mass = volume * particles.materials[material].second.density.value(),
-          .material = static_cast<Index>(material)};
+          .material = static_cast<Index>(material),
+          .rock = -1,
+          .area = disc_of(scene.radius)};
 }
 
 double density_of(const ParticlesScene& particles, const std::string& material) {
@@ -87,6 +99,7 @@ void add_bodies(const ParticlesScene& particles, ParticleModel& model) {
   for (const auto& [name, sphere] : particles.spheres) model.spheres.push_back(sphere_of(particles, sphere));
   for (const auto& [name, scene] : particles.rocks) {
     BuiltRock built = build_rock(name, scene, density_of(particles, scene.material));
+    built.rock.name = name;
     for (SphereInput& sphere : built.spheres) {
       sphere.material = static_cast<Index>(material_index(particles, scene.material));
       sphere.rock = static_cast<Index>(model.rocks.size());
@@ -99,6 +112,7 @@ void add_bodies(const ParticlesScene& particles, ParticleModel& model) {
   for (const auto& [name, stream] : particles.streams)
     for (SphereInput sphere : make_stream(stream, density_of(particles, stream.material))) {
       sphere.material = static_cast<Index>(material_index(particles, stream.material));
+      sphere.area = disc_of(sphere.radius);
       model.spheres.push_back(sphere);
     }
 }
@@ -155,10 +169,24 @@ std::vector<Material> materials_of(const ParticlesScene& particles) {
   return materials;
 }
 
+namespace {
+LawChoice::Normal normal_kind(const HertzScene& law) {
+  return law.loss == HertzScene::Loss::hysteretic ? LawChoice::Normal::hysteretic_hertz
+                                                  : LawChoice::Normal::hertz;
+}
+LawChoice::Normal normal_kind(const LinearScene&) {
+  return LawChoice::Normal::linear;
+}
+LawChoice::Normal normal_kind(const FoundationScene&) {
+  return LawChoice::Normal::foundation;
+}
+
+}  // namespace
+
 LawChoice law_of(const ParticlesScene& particles, const BuildContext& context) {
-  const bool linear =
-      !particles.contacts.empty() && std::holds_alternative<LinearScene>(particles.contacts.front().normal);
-  return {.normal = linear ? LawChoice::Normal::linear : LawChoice::Normal::hertz,
+  return {.normal = particles.contacts.empty() ? LawChoice::Normal::hertz
+                                               : std::visit([](const auto& law) { return normal_kind(law); },
+                                                            particles.contacts.front().normal),
           .friction = friction_kind(particles),
           .rolling = rolling_kind(particles),
           .ledger = context.ledger};
@@ -187,6 +215,7 @@ ParticleModel build_model(const ParticlesScene& particles, const mesh::Surface& 
   if (particles.implicit_contact)
     model.implicit_contact = {.tolerance = particles.implicit_contact->tolerance,
                               .most_sweeps = static_cast<int>(particles.implicit_contact->most_sweeps)};
+  model.may_be_unstable = particles.unstable_step == ParticlesScene::UnstableStep::allowed;
   model.step = context.step;
   model.threads = context.threads;
   return model;

@@ -8,14 +8,19 @@ namespace {
 
 template <class Normal, class Ledger, class FrictionTerm>
 AnyContactModel with_rolling(LawChoice::Rolling rolling) {
-  switch (rolling) {
-    case LawChoice::Rolling::constant_torque:
-      return ContactModel<ContactLaw<Normal, FrictionTerm, ConstantTorque, Ledger>>{};
-    case LawChoice::Rolling::elastic_plastic:
-      return ContactModel<ContactLaw<Normal, FrictionTerm, ElasticPlasticRolling, Ledger>>{};
-    case LawChoice::Rolling::none:
-      break;
-  }
+  if constexpr (Normal::memory_rows > 0) {
+    if (rolling != LawChoice::Rolling::none)
+      throw core::UsageError("rolling resistance needs a normal law with dashpots");
+    return ContactModel<ContactLaw<Normal, FrictionTerm, NoTerm, Ledger>>{};
+  } else
+    switch (rolling) {
+      case LawChoice::Rolling::constant_torque:
+        return ContactModel<ContactLaw<Normal, FrictionTerm, ConstantTorque, Ledger>>{};
+      case LawChoice::Rolling::elastic_plastic:
+        return ContactModel<ContactLaw<Normal, FrictionTerm, ElasticPlasticRolling, Ledger>>{};
+      case LawChoice::Rolling::none:
+        break;
+    }
   return ContactModel<ContactLaw<Normal, FrictionTerm, NoTerm, Ledger>>{};
 }
 
@@ -42,8 +47,17 @@ AnyContactModel with_ledger(const LawChoice& choice) {
 }  // namespace
 
 AnyContactModel make_contact_model(const LawChoice& choice) {
-  return choice.normal == LawChoice::Normal::linear ? with_ledger<LinearSpring>(choice)
-                                                    : with_ledger<Hertz>(choice);
+  switch (choice.normal) {
+    case LawChoice::Normal::linear:
+      return with_ledger<LinearSpring>(choice);
+    case LawChoice::Normal::hysteretic_hertz:
+      return with_ledger<HystereticHertz>(choice);
+    case LawChoice::Normal::foundation:
+      return with_ledger<Foundation>(choice);
+    case LawChoice::Normal::hertz:
+      break;
+  }
+  return with_ledger<Hertz>(choice);
 }
 
 }  // namespace talus::dem

@@ -7,7 +7,10 @@ namespace talus::dem {
 namespace {
 constexpr core::Range restitution_range{.low = 0, .high = 1, .low_included = false};
 constexpr core::Range poisson_range{.low = -1, .high = 0.5, .low_included = false};
-constexpr const char* restitution_help = "rebound over approach speed, exact at any speed and size";
+constexpr const char* restitution_help =
+    "rebound over approach speed, the same at any speed and size, for as long as the step is short";
+constexpr const char* hysteretic_help =
+    "root of the energy that comes back over what went in, for any number of contacts of a body";
 }  // namespace
 
 void describe(core::Fields& fields, MaterialScene& material) {
@@ -27,6 +30,21 @@ void describe(core::Fields& fields, MaterialScene& material) {
 
 void describe(core::Fields& fields, HertzScene& law) {
   fields.required("restitution", law.restitution, {.range = restitution_range, .help = restitution_help});
+  fields.choice(
+      "loss", law.loss, {"dashpot", "hysteretic"},
+      "how energy is lost: by a dashpot, or by unloading on a steeper curve, which does not depend on how "
+      "many contacts a body has");
+}
+
+void describe(core::Fields& fields, FoundationScene& law) {
+  fields.required("stiffness_per_area", law.stiffness_per_area,
+                  {.unit = "Pa/m",
+                   .range = core::positive,
+                   .help = "pressure over overlap; of an elastic layer E/((1 - v^2) thickness)",
+                   .plausible = core::plausible::foundation});
+  fields.with_default("tangential_ratio", law.tangential_ratio,
+                      {.range = core::positive, .help = "tangential over normal stiffness"});
+  fields.required("restitution", law.restitution, {.range = restitution_range, .help = hysteretic_help});
 }
 
 void describe(core::Fields& fields, LinearScene& law) {
@@ -86,8 +104,12 @@ void describe(core::Fields& fields, RollingScene& rolling) {
 void describe(core::Fields& fields, ContactScene& contact) {
   fields.required("between", contact.between, {.help = "the two materials, equal ones for their own kind"});
   fields.rule(contact.between.size() == 2, "between", "needs two materials");
-  fields.one_of(contact.normal, {{"hertz", "Hertz's law with constant restitution"},
-                                 {"linear", "linear spring and dashpot"}});
+  fields.one_of(contact.normal,
+                {{"hertz", "Hertz's law with constant restitution"},
+                 {"linear", "linear spring and dashpot"},
+                 {"foundation",
+                  "every sphere of a rock carries its share of the surface: force and rebound do not "
+                  "depend on how the rock is filled"}});
   fields.section("friction", contact.friction,
                  "Coulomb friction with a tangential spring; absent: frictionless, and nothing turns");
   fields.section("rolling", contact.rolling, "rolling resistance; absent: none");

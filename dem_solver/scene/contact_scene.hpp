@@ -18,7 +18,9 @@ struct MaterialScene {
 void describe(core::Fields& fields, MaterialScene& material);
 
 struct HertzScene {
+  enum class Loss { dashpot, hysteretic };
   double restitution = 1;
+  Loss loss = Loss::dashpot;
 };
 void describe(core::Fields& fields, HertzScene& law);
 
@@ -28,6 +30,13 @@ struct LinearScene {
   double restitution = 1;
 };
 void describe(core::Fields& fields, LinearScene& law);
+
+struct FoundationScene {
+  double stiffness_per_area = 0;  ///< Pa/m
+  double tangential_ratio = 2.0 / 7;
+  double restitution = 1;
+};
+void describe(core::Fields& fields, FoundationScene& law);
 
 /// One coefficient, or one that falls from rest to sliding.
 struct FrictionScene {
@@ -54,7 +63,7 @@ void describe(core::Fields& fields, RollingScene& rolling);
 
 struct ContactScene {
   std::vector<std::string> between;  ///< two materials
-  std::variant<HertzScene, LinearScene> normal;
+  std::variant<HertzScene, LinearScene, FoundationScene> normal;
   std::optional<FrictionScene> friction;
   std::optional<RollingScene> rolling;
 };

@@ -49,6 +49,12 @@ std::vector<ParticleEffect> effects_of(const ParticlesScene& particles, const Ef
   const auto rolling = contact_with(particles, [](const ContactScene& c) { return c.rolling.has_value(); });
   const auto linear = contact_with(
       particles, [](const ContactScene& c) { return std::holds_alternative<LinearScene>(c.normal); });
+  const auto hysteretic = contact_with(particles, [](const ContactScene& c) {
+    const auto* hertz = std::get_if<HertzScene>(&c.normal);
+    return hertz != nullptr && hertz->loss == HertzScene::Loss::hysteretic;
+  });
+  const auto foundation = contact_with(
+      particles, [](const ContactScene& c) { return std::holds_alternative<FoundationScene>(c.normal); });
   const auto suffixed = [](const std::string& entry, const char* key) {
     return entry.empty() ? entry : entry + key;
   };
@@ -67,7 +73,10 @@ std::vector<ParticleEffect> effects_of(const ParticlesScene& particles, const Ef
       lifting(effect("implicit contact", particles.implicit_contact ? "particles.implicit_contact" : "",
                      "particles.implicit_contact is absent"),
               "particles.implicit_contact", node_dashpot_limit),
-      effect("linear contact law", suffixed(linear, ".linear"), "contacts name `hertz`"),
+      effect("linear contact law", suffixed(linear, ".linear"), "no contact names `linear`"),
+      effect("contact law of surfaces", suffixed(foundation, ".foundation"), "no contact names `foundation`"),
+      effect("hysteretic contacts", suffixed(hysteretic, ".hertz.loss"),
+             "no contact names `loss: hysteretic`"),
       holding(effect("friction", suffixed(friction, ".friction"), "no contact names `friction`"),
               suffixed(friction, ".friction"), "particles.kinetic_rotation_J"),
       effect("rotation", suffixed(friction, ".friction"),

@@ -11,7 +11,7 @@ void check_overlaps(std::span<const SphereInput> input, const std::function<std:
   constexpr double tolerance = 1e-9;  // of the smaller radius: spheres written as touching
   if (input.empty()) return;
   Spheres spheres;
-  spheres.add(input, false);
+  spheres.add(input, {});
   PairList list;
   list.rebuild(spheres, {.skin = 0});
   double deepest = 0;

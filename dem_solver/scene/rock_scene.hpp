@@ -20,19 +20,21 @@ struct SpheresShapeScene {
 };
 void describe(core::Fields& fields, SpheresShapeScene& shape);
 
-/// A cube without its corners.
+/// A cube without its corners, or a test block of the guideline.
 struct BlockScene {
+  enum class Form { cut_corners, eota_111, eota_221 } form = Form::cut_corners;
   std::optional<double> edge;       ///< m
   std::optional<double> mass;       ///< kg; gives the edge
-  double cut = 0.25;                ///< of the edge
+  std::optional<double> cut;        ///< of the edge; absent: 0.25
   std::optional<double> deviation;  ///< m; absent: 5 % of the edge
+  std::optional<double> spacing;    ///< m; of spheres along the surface in place of filling ones
 };
 void describe(core::Fields& fields, BlockScene& block);
 
 /// A closed surface from a file.
 struct SurfaceScene {
   mesh::MeshFileScene file;
-  double deviation = 0;  ///< m
+  std::optional<double> deviation, spacing;  ///< m; one of both
 };
 void describe(core::Fields& fields, SurfaceScene& surface);
 
@@ -53,6 +55,8 @@ struct BuiltRock {
   mesh::Surface surface;             ///< positions in the rock's principal axes, about its centre
   double deviation = 0;              ///< m; of the surface's nodes from the spheres, 0 without a surface
 };
+/// Whether the rock's spheres lie along its surface, each for the share of it next to it.
+bool stands_for_surface(const RockScene& rock);
 /// @throws ConfigError for a surface that is no closed solid, or cannot be filled
 BuiltRock build_rock(const std::string& name, const RockScene& scene, double density);
 

@@ -92,12 +92,41 @@ void check_pairs(core::Fields& fields, const ParticlesScene& particles) {
   }
 }
 
+HertzScene::Loss loss_of(const ContactScene& contact) {
+  const auto* hertz = std::get_if<HertzScene>(&contact.normal);
+  return hertz != nullptr ? hertz->loss : HertzScene::Loss::dashpot;
+}
+
+bool has_dashpots(const ContactScene& contact) {
+  return !std::holds_alternative<FoundationScene>(contact.normal) &&
+         loss_of(contact) == HertzScene::Loss::dashpot;
+}
+
 void check_laws(core::Fields& fields, const ParticlesScene& particles) {
+  const bool spreads = std::ranges::any_of(particles.contacts, [](const ContactScene& contact) {
+    return std::holds_alternative<FoundationScene>(contact.normal);
+  });
+  for (const auto& [name, rock] : particles.rocks)
+    fields.rule(
+        !spreads || stands_for_surface(rock), "rocks",
+        name +
+            ": the contact law `foundation` needs spheres along the rock's surface: give `spacing` in place "
+            "of `deviation`, half of what the smallest face measures or less");
   std::set<std::pair<std::string, std::string>> seen;
   for (const ContactScene& contact : particles.contacts) {
     const ContactScene& first = particles.contacts.front();
     fields.rule(contact.normal.index() == first.normal.index(), "contacts",
-                "all contacts of a scene need the same normal law, `hertz` or `linear`");
+                "all contacts of a scene need the same normal law, `hertz`, `linear` or `foundation`");
+    fields.rule(loss_of(contact) == loss_of(first), "contacts",
+                "all contacts of a scene need the same `hertz.loss`");
+    fields.rule(!contact.rolling || has_dashpots(contact), "contacts",
+                "`rolling` needs a law with dashpots: `hertz` with `loss: dashpot`, or `linear`. The others "
+                "are laws of "
+                "rocks, whose resistance to rolling is not that of their spheres");
+    fields.rule(
+        !particles.implicit_contact || has_dashpots(contact), "implicit_contact",
+        "is for laws with dashpots, which limit the step on light nodes; `foundation` and `loss: hysteretic` "
+        "have none");
     fields.rule(!contact.rolling || std::ranges::all_of(particles.contacts,
                                                         [&](const ContactScene& other) {
                                                           return !other.rolling ||

@@ -52,12 +52,23 @@ class StartCheck {
   double radius_of_body(const SphereInput& sphere) const {
     return sphere.rock >= 0 ? largest_of_rock_.at(sphere.rock) : sphere.radius;
   }
+  /// m; under its weight.
+  double rest_depth(double weight, double stiffness, double radius, double area) const {
+    switch (model_.law.normal) {
+      case LawChoice::Normal::linear:
+        return weight / stiffness;
+      case LawChoice::Normal::foundation:
+        return area > 0 ? weight / (stiffness * area) : 0;
+      case LawChoice::Normal::hertz:
+      case LawChoice::Normal::hysteretic_hertz:
+        break;
+    }
+    return std::pow(0.75 * weight / (stiffness * std::sqrt(radius)), 2.0 / 3);
+  }
   double allowed_depth(const SphereInput& sphere, Index partner_material) const {
     const double radius = radius_of_body(sphere), weight = sphere.mass * length(model_.gravity);
-    const double stiffness = model_.pairs(sphere.material, partner_material).normal.x;  // E* or k
-    const double rest = model_.law.normal == LawChoice::Normal::linear
-                            ? weight / stiffness
-                            : std::pow(0.75 * weight / (stiffness * std::sqrt(radius)), 2.0 / 3);
+    const double stiffness = model_.pairs(sphere.material, partner_material).normal.x;  // E*, k or k_A
+    const double rest = rest_depth(weight, stiffness, radius, sphere.area);
     return std::max(touching * radius, std::min(deepest_rest * radius, rest));
   }
 

@@ -54,6 +54,7 @@ struct Collision {
 
 struct Impact {
   double radius = 0, mass = 0, speed = 0;  ///< R*, m*, approach
+  double area = 0;                         ///< m^2; of the sphere's surface
 };
 
 Collision hertz_collision(const Impact& impact, const PairParameters& p) {
@@ -72,11 +73,40 @@ Collision linear_collision(const Impact& impact, const PairParameters& p) {
           2 * p.normal.z * std::sqrt(impact.mass * stiffness)};
 }
 
+/// Loads in a quarter of a period, unloads in e times that; nothing but springs.
+Collision foundation_collision(const Impact& impact, const PairParameters& p) {
+  const double stiffness = p.normal.x * impact.area, e = std::sqrt(p.normal.z);
+  return {stiffness / p.normal.z, std::numbers::pi / 2 * std::sqrt(impact.mass / stiffness) * (1 + e), 0};
+}
+
+Collision hysteretic_collision(const Impact& impact, const PairParameters& p) {
+  const double e = std::sqrt(p.normal.z);
+  PairParameters elastic = p;
+  elastic.normal.z = 0;
+  const Collision c = hertz_collision(impact, elastic);
+  return {c.stiffness / p.normal.z, 0.5 * c.duration * (1 + e), 0};
+}
+
+Collision collision(LawChoice::Normal law, const Impact& impact, const PairParameters& p) {
+  switch (law) {
+    case LawChoice::Normal::linear:
+      return linear_collision(impact, p);
+    case LawChoice::Normal::hysteretic_hertz:
+      return hysteretic_collision(impact, p);
+    case LawChoice::Normal::foundation:
+      return foundation_collision(impact, p);
+    case LawChoice::Normal::hertz:
+      break;
+  }
+  return hertz_collision(impact, p);
+}
+
 struct Limits {
   Tightest spring = open_limit("contact spring", true);
   Tightest node_spring = open_limit("contact spring on boundary nodes", true);
   Tightest tunnelling = open_limit("tunnelling", true);
   Tightest duration = open_limit("contact duration", false);
+  Tightest face = open_limit("contacts of a rock", false);
   Tightest rayleigh = open_limit("Rayleigh wave", false);
   Tightest node_dashpot = open_limit(node_dashpot_limit, false);
 };
@@ -100,6 +130,7 @@ class LimitSearch {
         for (const Plane& plane : model_.planes) contact(i, sphere, speed, plane.material);
     }
     with_spheres();
+    if (model_.law.spreads_over_area()) rocks_on_faces();
     return limits_;
   }
 
@@ -114,10 +145,9 @@ class LimitSearch {
   }
 
   Collision contact(Index i, const SphereInput& sphere, double speed, Index partner) {
-    const Impact impact{sphere.radius, sphere.mass, speed};
-    const PairParameters& p = model_.pairs(sphere.material, partner);
-    const Collision c = model_.law.normal == LawChoice::Normal::hertz ? hertz_collision(impact, p)
-                                                                      : linear_collision(impact, p);
+    const Impact impact{sphere.radius, sphere.mass, speed, sphere.area};
+    if (model_.law.spreads_over_area() && sphere.area <= 0) return {};  // a ball deep inside of a rock
+    const Collision c = collision(model_.law.normal, impact, model_.pairs(sphere.material, partner));
     const std::string entity = fmt::format("sphere {} of {:.4g} kg at {:.4g} m/s", i, sphere.mass, speed);
     limits_.spring.consider(2 * std::sqrt(sphere.mass / c.stiffness), "2 sqrt(m/k), " + entity);
     limits_.duration.consider(c.duration / steps_in_contact,
@@ -142,6 +172,24 @@ class LimitSearch {
       if (c.dashpot > 0 && !model_.implicit_contact)
         limits_.node_dashpot.consider(2 * lightest_node_ / c.dashpot, "2 m/c, " + entity);
     }
+  }
+
+  /// Rocks with a quarter of their surface in contact.
+  void rocks_on_faces() {
+    std::vector<double> stiffest(model_.rocks.size());
+    for (const SphereInput& sphere : model_.spheres)
+      for (Index partner = 0; sphere.rock >= 0 && partner < model_.pairs.materials(); ++partner)
+        if (const PairParameters& p = model_.pairs(sphere.material, partner); p.normal.x > 0)
+          stiffest[sphere.rock] = std::max(stiffest[sphere.rock], p.normal.x / p.normal.z);
+    std::vector<double> area(model_.rocks.size());
+    for (const SphereInput& sphere : model_.spheres)
+      if (sphere.rock >= 0) area[sphere.rock] += sphere.area;
+    for (std::size_t k = 0; k < area.size(); ++k)
+      if (const double stiffness = 0.25 * stiffest[k] * area[k]; stiffness > 0)
+        limits_.face.consider(
+            2 * std::sqrt(model_.rocks[k].mass / stiffness),
+            fmt::format("2 sqrt(m e^2/(k A)), rock {} on {:.3g} m^2, a quarter of its surface",
+                        model_.rocks[k].name, 0.25 * area[k]));
   }
 
   /// The lightest sphere of each material against every other material, at twice the largest speed.
@@ -172,7 +220,7 @@ std::vector<ParticleStepLimit> step_limits(const ParticleModel& model, const Lim
   const Limits found = LimitSearch(model, context).run();
   std::vector<ParticleStepLimit> limits;
   for (const Tightest& tightest : {found.spring, found.node_spring, found.tunnelling, found.duration,
-                                   found.rayleigh, found.node_dashpot})
+                                   found.face, found.rayleigh, found.node_dashpot})
     if (std::isfinite(tightest.limit.seconds)) limits.push_back(tightest.limit);
   return limits;
 }

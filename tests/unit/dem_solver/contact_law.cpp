@@ -96,6 +96,41 @@ TEST_CASE("One contact and four at a time give the same bits") {
   }
 }
 
+TEMPLATE_TEST_CASE(
+    "A hysteretic contact gives back the asked part of its work, and of more work where it is pressed deeper",
+    "", HystereticHertz, Foundation) {
+  const double e = GENERATE(0.9, 0.5, 0.1), deepest = 2e-3, step = 1e-7;
+  const ContactParameters<double> p{{5e6, 3e6, e * e, 0}, {}, {}};
+  Quad<double> memory{};
+  double last = 0, overlap = 0, given = 0, taken = 0;
+  const auto move_to = [&](double target) {
+    const int steps = static_cast<int>(std::ceil(std::abs(target - overlap) / step));
+    const double way = (target - overlap) / steps;
+    for (int n = 0; n < steps; ++n) {
+      overlap += way;
+      Touch<double> touch = touch_with(overlap);
+      touch.area = 0.01;
+      const double f = TestType::template force<double>(touch, p, memory).elastic,
+                   work = 0.5 * (last + f) * way;
+      (way > 0 ? given : taken) += std::abs(work);
+      last = f;
+      if (overlap > 0)
+        REQUIRE(given - taken == Approx(TestType::template energy<double>(touch, p, memory) +
+                                        TestType::template lost<double>(touch, p, memory))
+                                     .epsilon(1e-3)
+                                     .margin(1e-9));
+    }
+  };
+  move_to(deepest / 2);
+  move_to(deepest / 2 * (1 - 0.5 * e * e));  // half of the way back: nothing more is lost
+  move_to(deepest);
+  move_to(0);
+  const double work =
+      TestType::template lost<double>(touch_with(deepest), p, {0.01, 0, 0, deepest}) / (1 - e * e);
+  CHECK(given - taken == Approx((1 - e * e) * work).epsilon(1e-3));
+  CHECK(memory.w == 0);  // forgotten where the contact ends
+}
+
 TEST_CASE(
     "A tangential spring under a tenth of its load returns what its softened stiffness holds, and no more") {
   ContactParameters<double> p{{5e6, 3e6, 0, 0}, {10, 10, 0, 0}, {}};

@@ -163,7 +163,7 @@ TEST_CASE("The neighbour list has every touching pair of sizes 1 to 200 once, an
                      .radius = 0.002 * std::pow(200, u(random) * u(random)),
                      .mass = 1});
   Spheres spheres;
-  spheres.add(input, false);
+  spheres.add(input, {});
   PairList list;
   const double skin = 0.001;
   const auto [place, moves] = list.rebuild(spheres, {.skin = skin});

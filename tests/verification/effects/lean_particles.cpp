@@ -13,7 +13,7 @@ using namespace dem;
 
 LeanParticles::LeanParticles(const ParticleModel& model)
     : pairs_(model.pairs), step_(model.step), skin_(model.skin) {
-  spheres_.add(model.spheres, false);
+  spheres_.add(model.spheres, {});
 }
 
 void LeanParticles::step() {

@@ -7,6 +7,7 @@
 
 #include "dem_solver/rocks/ball_union.hpp"
 #include "dem_solver/rocks/closed_surface.hpp"
+#include "dem_solver/rocks/eota_block.hpp"
 #include "dem_solver/rocks/polyhedron.hpp"
 #include "dem_solver/rocks/sphere_filling.hpp"
 #include "dem_solver/scene/rock_scene.hpp"
@@ -75,6 +76,23 @@ TEST_CASE("A block's mass properties are those of the closed form") {
   CHECK(block_edge(m.volume, cut) == Approx(edge).epsilon(1e-13));
 }
 
+TEST_CASE("The test blocks have 26 faces, the volume and the inertia that the guideline's corners give") {
+  const bool flat = GENERATE(false, true);
+  const double edge = 1.2, density = 2500;
+  const mesh::Surface block = make_eota_block({edge, flat});
+  REQUIRE(closed_surface_fault(block).empty());
+  CHECK(block.triangles.size() == 6 * 2 + 12 * 2 + 8);  // squares, rectangles, triangles
+  const MassProperties mass = mass_properties(polyhedron_moments(block), density);
+  const double volume = (flat ? 0.5 : 1.0) * 17.0 / 24 * edge * edge * edge;
+  CHECK(mass.mass == Approx(density * volume).epsilon(1e-12));
+  CHECK(eota_edge(volume, flat) == Approx(edge).epsilon(1e-12));
+  CHECK(mass.centre.norm() < 1e-12);
+  // 0.1235 m L^2 about every axis of the cubic one, to the published digits; each half is an integral of x^2.
+  const double along = 0.1235 / 2 * mass.mass * edge * edge, up = flat ? along / 4 : along;
+  CHECK(mass.inertia(0, 0) == Approx(along + up).epsilon(1e-3));
+  CHECK(mass.inertia(2, 2) == Approx(2 * along).epsilon(1e-3));
+}
+
 TEST_CASE("A filling's spheres stay inside the rock and come closer to it with a smaller deviation") {
   const mesh::Surface block = make_block({1, 0.25});
   double last = 1;
@@ -123,7 +141,7 @@ TEST_CASE("The spheres of a filled rock approach its volume and inertia as they 
 
 TEST_CASE("A filled rock has the mass, centre and inertia of its surface, whatever its spheres are") {
   RockScene scene;
-  scene.shape = BlockScene{.edge = 0.8, .mass = {}, .cut = 0.25, .deviation = 0.1};
+  scene.shape = BlockScene{.edge = 0.8, .mass = {}, .cut = 0.25, .deviation = 0.1, .spacing = {}};
   scene.at = {1, 2, 3};
   const double density = 2600;
   const BuiltRock built = build_rock("block", scene, density);
