@@ -35,6 +35,7 @@ ParticleSolver::ParticleSolver(ParticleModel model)
       gravity_(model.gravity),
       step_(model.step),
       skin_(model.skin),
+      contact_rule_(model.contact_rule),
       threads_(model.threads),
       may_be_unstable_(model.may_be_unstable),
       contacts_(make_contact_model(model.law)),
@@ -216,6 +217,7 @@ ContactStage ParticleSolver::contact_stage() noexcept {
           .plane_list = plane_list_,
           .boundary_list = boundary_list_,
           .table = pairs_,
+          .contact_rule = contact_rule_,
           .implicit_contact = implicit_contact_ ? &*implicit_contact_ : nullptr,
           .step = last_step(),
           .threads = threads_};

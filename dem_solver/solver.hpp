@@ -31,6 +31,7 @@ struct ParticleModel {
   LawChoice law;
   Triple<double> gravity;                                       ///< m/s^2
   double step = 0;                                              ///< s
+  ContactRule contact_rule = ContactRule::local_minima;         ///< with the boundary
   std::optional<ImplicitVelocities::Control> implicit_contact;  ///< with the boundary; absent: explicit
   double skin = 0;  ///< m; of the neighbour lists; 0: follows from how fast the spheres move
   int threads = 1;
@@ -170,6 +171,7 @@ class ParticleSolver {
   double skin_ = 0;           ///< m; of the list of pairs
   double main_radius_ = 0;    ///< m; of the most frequent size class; 0: the skin is given
   std::optional<ImplicitContact> implicit_contact_;
+  ContactRule contact_rule_ = ContactRule::local_minima;
   int threads_ = 1;
   bool may_be_unstable_ = false;
 

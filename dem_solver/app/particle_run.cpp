@@ -57,11 +57,14 @@ mesh::Surface displaced(mesh::Surface surface) {
   return surface;
 }
 
-ParticleModel model_of(const RunScene& scene, const mesh::Surface& surface) {
+ParticleModel model_of(const RunScene& scene, const mesh::Surface& surface, bool moved_by_structure) {
   const int threads = std::max(static_cast<int>(scene.particles.threads), core::thread_count());
   ParticleModel model = build_model(
       scene.particles, surface,
-      {.step = own_step(scene).value_or(0), .ledger = scene.output.has_value(), .threads = threads});
+      {.step = own_step(scene).value_or(0),
+       .ledger = scene.output.has_value(),
+       .threads = threads,
+       .moved_by_structure = moved_by_structure});
   if (surface.start.empty()) {
     check_start(scene.particles, model, surface);
     return model;
@@ -90,7 +93,7 @@ NamedBodies named_bodies(const ParticlesScene& particles, const ParticleModel& m
 
 ParticleRun::ParticleRun(const RunScene& scene, const mesh::Surface& surface,
                          std::span<const double> node_masses)
-    : ParticleRun(scene, model_of(scene, surface), node_masses) {}
+    : ParticleRun(scene, model_of(scene, surface, !node_masses.empty()), node_masses) {}
 
 ParticleRun::ParticleRun(const RunScene& scene, const ParticleModel& model,
                          std::span<const double> node_masses)

@@ -29,7 +29,7 @@ struct ParticleRun {
   ParticleOutput output;
   std::vector<ParticleStepLimit> limits;
 
-  /// @param surface the whole boundary; `node_masses` may be empty (rigid)
+  /// @param surface the whole boundary; `node_masses` empty: no structure moves it
   ParticleRun(const RunScene& scene, const mesh::Surface& surface, std::span<const double> node_masses);
   ParticleRun(const ParticleRun&) = delete;  // the output refers to the solver
   ParticleRun& operator=(const ParticleRun&) = delete;

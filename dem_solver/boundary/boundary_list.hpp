@@ -9,6 +9,33 @@
 
 namespace talus::dem {
 
+/// Which of the features that a sphere overlaps count as contacts.
+///
+/// local_minima: every local minimum of the distance from the centre on one connected surface, as far as it stands out from
+/// the nearer one beside it. With L the distance of a minimum, R the sphere's radius and L_s that of the lowest saddle on a
+/// way along the surface to a nearer minimum, its overlap is
+///
+///     h = min(R, L_s) - L
+///
+/// (the 0-dimensional persistence of the distance on the surface). The force is the derivative of the energy of that overlap:
+/// f n at the minimum, and -f n_s at a saddle that limits it. So a floor of triangles is one contact, a concave edge becomes
+/// two as its angle grows without a step of the energy, and wires that are not connected all count. Tests:
+/// touching_features.cpp, verification/particles "features".
+///
+/// tangent_plane: a candidate is dropped where its contact point lies on or beyond the tangent plane of a nearer accepted
+/// one,
+///     n_new . n_old L_new >= L_old        n: unit vectors to the centre, L: distances of the contact points from it
+/// as published curves were made. It appears and disappears with a finite overlap, and of separate wires it may keep one only.
+/// Test: verification/particles "triangulated floor".
+enum class ContactRule { local_minima, tangent_plane };
+
+/// Where a contact ends, on the way along the surface to a nearer one.
+struct FeatureSaddle {
+  Triple<double> normal;  ///< unit vector to the sphere's centre
+  Weights weights;
+  Index feature = -1;  ///< that it lies on; -1: there is none
+};
+
 /// An accepted contact of a sphere with the boundary.
 struct BoundaryContact {
   Row force;        ///< N; on the sphere at the last evaluation
@@ -16,6 +43,10 @@ struct BoundaryContact {
   Weights weights;  ///< of the feature's nodes at the contact point
   Index feature = -1;
   Index part = -1;
+  double reach = 0;      ///< m; distance from the centre at which the overlap is 0
+  FeatureSaddle saddle;  ///< that the sphere is drawn to by the normal force
+  FeatureSaddle pulled;  ///< the saddle of the last evaluation, and
+  Triple<double> pull;   ///< N; the normal force on the sphere that was directed there
 };
 
 /// The features near each sphere, and room for its contacts: one slot a candidate, of which the first `count`

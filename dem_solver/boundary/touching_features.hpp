@@ -1,6 +1,6 @@
 #pragma once
 
-#include <algorithm>
+#include <span>
 #include <vector>
 
 #include "dem_solver/boundary/boundary_list.hpp"
@@ -13,47 +13,45 @@ struct FeatureTouch {
   Triple<double> normal;  ///< unit vector to the centre
   Weights weights;
   Index feature = -1;
+  double reach = 0;      ///< m; distance at which the contact ends, as far as its saddle: the overlap is reach - distance
+  FeatureSaddle saddle;  ///< that ends it; of feature -1: none, it ends where the sphere does
 };
 
-/// Those of the candidates that count as contacts: nearest first, one feature once.
-///
-/// A candidate is dropped where its contact point lies on or beyond the tangent plane of a nearer accepted
-/// one,
-///     n_new . n_old L_new >= L_old        n: unit vectors to the centre, L: distances of the contact points
-///     from it
-/// so a sphere on a shared edge or vertex, or whose cap reaches into the next coplanar triangle, feels one
-/// contact. Sorting by distance makes the result independent of the order of the features. Test:
-/// verification/particles "triangulated floor".
-/// @param touches replaced; keeps its capacity.
-inline void find_touching_features(const Boundary& boundary, const Row& sphere,
-                                   std::span<const Index> candidates,
-                                   std::vector<FeatureTouch>& touches) noexcept {
-  constexpr double round_off =
-      1e-9;  // shared points computed from two features differ by this much at most, relative to L
-  touches.clear();
-  const Triple<double> centre = triple<double>(sphere);
-  for (Index k : candidates) {
-    const Feature& feature = boundary.features()[k];
-    const Boundary::ClosestPoint closest = boundary.closest(feature, centre);
-    const Triple<double> out = centre - closest.point;
-    const double axis_distance = length(out);
-    const double distance = axis_distance - feature.wire_radius;
-    if (distance >= sphere.w || axis_distance <= 0) continue;
-    touches.push_back({distance, (1 / axis_distance) * out, closest.weights, k});
-  }
-  std::ranges::sort(touches, [](const FeatureTouch& a, const FeatureTouch& b) {
-    return a.distance != b.distance ? a.distance < b.distance : a.feature < b.feature;
-  });
-  std::size_t accepted = 0;
-  for (std::size_t k = 0; k < touches.size(); ++k) {
-    const bool repeats =
-        std::any_of(touches.begin(), touches.begin() + accepted, [&](const FeatureTouch& nearer) {
-          return dot(touches[k].normal, nearer.normal) * touches[k].distance >=
-                 nearer.distance * (1 - round_off);
-        });
-    if (!repeats) touches[accepted++] = touches[k];
-  }
-  touches.resize(accepted);
-}
+/// Room for the search, kept from one to the next.
+class TouchSearch {
+ public:
+  explicit TouchSearch(std::size_t candidates = 0) { reserve(candidates); }
+  void reserve(std::size_t candidates);
+
+  /// The candidates that count as contacts, nearest first, one feature once. Sorting by distance makes the result
+  /// independent of the order of the features.
+  std::span<const FeatureTouch> find(const Boundary& boundary, const Row& sphere, std::span<const Index> candidates,
+                                     ContactRule rule) noexcept;
+
+ private:
+  /// What two or more features share: a node, or the edge of two nodes.
+  struct Shared {
+    std::array<Index, 2> nodes{-1, -1};  ///< ascending; a single node twice
+    Index touch = -1;                    ///< number of a feature that has it
+  };
+  /// Two touches whose features meet, and how high the way from one to the other is there.
+  struct Link {
+    double level = 0;  ///< m; the distance of the sphere's centre from what they share
+    Index first = -1, second = -1;
+    std::array<Index, 2> nodes{-1, -1};
+  };
+
+  void drop_those_beyond_tangent_planes() noexcept;
+  void keep_local_minima(const Boundary& boundary, const Row& sphere) noexcept;
+  bool is_only_minimum(const Boundary& boundary) const noexcept;
+  void find_links(const Boundary& boundary, const Row& sphere) noexcept;
+  void limit_by_saddles(const Boundary& boundary, const Row& sphere) noexcept;
+  Index root_of(Index touch) noexcept;
+
+  std::vector<FeatureTouch> touches_;
+  std::vector<Shared> shared_;
+  std::vector<Link> links_;
+  std::vector<Index> parent_;
+};
 
 }  // namespace talus::dem

@@ -20,6 +20,7 @@ class BoundaryContacts : public ContactBatch<Law> {
     Boundary& boundary;
     BoundaryList& list;
     const PairTable& table;
+    ContactRule rule = ContactRule::local_minima;
     double step = 0;  ///< s
     int threads = 1;
   };
@@ -80,10 +81,10 @@ class BoundaryContacts : public ContactBatch<Law> {
     bool continued = false;
   };
   struct Scratch {
-    std::vector<FeatureTouch> touches;
+    TouchSearch search;
     std::vector<OldContact> old;
     void reserve(Index candidates) {
-      touches.reserve(static_cast<std::size_t>(candidates));
+      search.reserve(static_cast<std::size_t>(candidates));
       old.reserve(static_cast<std::size_t>(candidates));
     }
   };
@@ -104,15 +105,22 @@ class BoundaryContacts : public ContactBatch<Law> {
     for (Index slot = begin; slot < begin + count; ++slot)
       scratch.old.push_back({context.list.contacts()[slot], memory_.recall(slot)});
 
-    find_touching_features(context.boundary, context.spheres.position[i],
-                           context.list.candidates().subspan(begin, static_cast<std::size_t>(end - begin)),
-                           scratch.touches);
+    const auto touches = scratch.search.find(
+        context.boundary, context.spheres.position[i],
+        context.list.candidates().subspan(begin, static_cast<std::size_t>(end - begin)), context.rule);
     Index slot = begin;
-    for (const FeatureTouch& touch : scratch.touches) {
+    for (const FeatureTouch& touch : touches) {
       const Index part = context.boundary.features()[touch.feature].part;
       const OldContact old = continued(scratch.old, touch.normal, part);
-      context.list.contacts()[slot] = {old.contact.force, row(touch.normal, touch.distance), touch.weights,
-                                       touch.feature, part};
+      context.list.contacts()[slot] = {.force = old.contact.force,
+                                       .normal = row(touch.normal, touch.distance),
+                                       .weights = touch.weights,
+                                       .feature = touch.feature,
+                                       .part = part,
+                                       .reach = touch.reach,
+                                       .saddle = touch.saddle,
+                                       .pulled = old.contact.saddle,
+                                       .pull = old.contact.pull};
       memory_.remember(slot++, old.memory);
     }
     for (Index left = slot; left < begin + count; ++left) memory_.remember(left, {});
@@ -135,9 +143,15 @@ class BoundaryContacts : public ContactBatch<Law> {
     const RigidTouch touch = rigid_touch(context, i, contact);
     ImplicitVelocities::Contact unknown =
         springs_at_rest<Law>(context.spheres, touch, memory_.recall(slot), triple<double>(contact.force));
-    system_.tie(unknown, k, -arm_of(context.spheres, touch) * touch.normal);
+    system_.tie(unknown, k, -touch.arm * touch.normal);
     unknown.nodes = context.boundary.features()[contact.feature].nodes;
     unknown.weights = {contact.weights.a, contact.weights.b, contact.weights.c};
+    if (touch.has_saddle) {
+      const Weights& w = contact.saddle.weights;
+      unknown.saddle_normal = touch.saddle_normal;
+      unknown.saddle_nodes = context.boundary.features()[contact.saddle.feature].nodes;
+      unknown.saddle_weights = {w.a, w.b, w.c};
+    }
     system_.add(unknown, relative_velocity<Law>(context.spheres, touch));
   }
 
@@ -169,15 +183,23 @@ class BoundaryContacts : public ContactBatch<Law> {
   static RigidTouch rigid_touch(const Context& context, Index i, const BoundaryContact& contact) noexcept {
     const Feature& feature = context.boundary.features()[contact.feature];
     const double radius = context.spheres.position[i].w, wire = feature.wire_radius;
+    const FeatureSaddle& saddle = contact.saddle;
+    const bool limited = saddle.feature >= 0;
     return {.sphere = i,
             .normal = triple<double>(contact.normal),
-            .overlap = radius - contact.normal.w,
+            .overlap = contact.reach - contact.normal.w,
+            .arm = limited ? contact.normal.w : radius - (contact.reach - contact.normal.w),
             // A thin wire presses deeper than a flat face: R* of crossed cylinders, sqrt(R R r/(R + r)).
             .reduced_radius = wire > 0 ? std::sqrt(radius * radius * wire / (radius + wire)) : radius,
             .area = contact_area(context.spheres, i, triple<double>(contact.normal), wire),
             .partner_velocity = context.boundary.velocity_at(feature, contact.weights),
             .velocity_gain = {},
-            .parameters = &context.table(context.spheres.material[i], feature.material)};
+            .parameters = &context.table(context.spheres.material[i], feature.material),
+            .has_saddle = limited,
+            .saddle_normal = saddle.normal,
+            .saddle_velocity =
+                limited ? context.boundary.velocity_at(context.boundary.features()[saddle.feature], saddle.weights)
+                        : Triple<double>{}};
   }
 
   /// m^2; a wire covers a strip of the sphere's share of the surface, so that what a wire along a rock meets is its own
@@ -197,17 +219,45 @@ class BoundaryContacts : public ContactBatch<Law> {
                        const Triple<double>& velocity_gain, Memory& memory, ContactWork& work) noexcept {
     RigidTouch touch = rigid_touch(context, i, contact);
     touch.velocity_gain = velocity_gain;
-    const Triple<double> force =
-        evaluate_rigid_contact<Law>(context.spheres, touch, context.step, memory, work);
+    if constexpr (Law::has_ledger) work += work_of_last_pull(context, i, contact, touch, Law::dashpot_force(memory));
+    const auto [force, pull] = evaluate_rigid_contact<Law>(context.spheres, touch, context.step, memory, work);
     if constexpr (Law::has_ledger)
-      work.boundary +=
-          0.5 * context.step * dot(triple<double>(contact.force) + force, touch.partner_velocity);
+      work.boundary += 0.5 * context.step *
+                       (dot(triple<double>(contact.force) + force, touch.partner_velocity) +
+                        (touch.has_saddle ? dot(pull, touch.saddle_velocity) : 0.0));
     contact.force = row(force);
+    contact.pull = pull;
+  }
+
+  /// What the pull of the last evaluation does over the step behind: at the saddle it was directed to, which may have become
+  /// another since, as has what the dashpot's way counts along.
+  static ContactWork work_of_last_pull(const Context& context, Index i, const BoundaryContact& contact,
+                                       const RigidTouch& touch, double dashpot_force) noexcept {
+    const FeatureSaddle& last = contact.pulled;
+    if (last.feature < 0 && !touch.has_saddle) return {};
+    const Triple<double> v = triple<double>(context.spheres.velocity[i]);
+    const auto way = [&](const Triple<double>& normal, const Triple<double>& velocity) {
+      return dot(v - velocity, normal);
+    };
+    ContactWork work;
+    double before = 0;
+    if (last.feature >= 0) {
+      const Triple<double> velocity =
+          context.boundary.velocity_at(context.boundary.features()[last.feature], last.weights);
+      before = way(last.normal, velocity);
+      work.boundary = 0.5 * context.step * dot(contact.pull, velocity);
+    }
+    const double now = touch.has_saddle ? way(touch.saddle_normal, touch.saddle_velocity) : 0;
+    work.damping = -0.5 * context.step * dashpot_force * (now - before);
+    return work;
   }
 
   /// The last half step's work of a contact that is gone: zero force now, at the same place.
   void end_contact(const Context& context, Index i, OldContact& ended, ContactWork& work) noexcept {
-    ended.contact.normal.w = context.spheres.position[i].w;
+    if constexpr (Law::has_ledger)  // a wire that breaks takes what pressed it away
+      if (context.boundary.is_lost(ended.contact.feature)) work.damping += Law::stored_energy(ended.memory);
+    ended.contact.normal.w = ended.contact.reach;
+    ended.contact.pulled = ended.contact.saddle;
     evaluate(context, i, ended.contact, {}, ended.memory, work);
   }
 
@@ -218,6 +268,9 @@ class BoundaryContacts : public ContactBatch<Law> {
       const BoundaryContact& contact = context.list.contacts()[slot];
       context.boundary.react(context.boundary.features()[contact.feature], contact.weights,
                              triple<double>(contact.force));
+      if (contact.saddle.feature >= 0)
+        context.boundary.react(context.boundary.features()[contact.saddle.feature], contact.saddle.weights,
+                               contact.pull);
     });
   }
 

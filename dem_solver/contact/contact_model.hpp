@@ -17,6 +17,7 @@ struct ContactStage {
   PlaneList& plane_list;
   BoundaryList& boundary_list;
   const PairTable& table;
+  ContactRule contact_rule = ContactRule::local_minima;
   const ImplicitContact* implicit_contact = nullptr;  ///< of the boundary; nullptr: explicit
   double step = 0;                                    ///< s; since the last evaluation
   int threads = 1;

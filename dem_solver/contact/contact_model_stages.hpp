@@ -29,8 +29,8 @@ void ContactModel<Law>::with_planes(const ContactStage& s, Index block) noexcept
 
 template <class Law>
 int ContactModel<Law>::with_boundary(const ContactStage& s) noexcept {
-  const typename BoundaryContacts<Law>::Context context{s.spheres, s.boundary, s.boundary_list,
-                                                        s.table,   s.step,     s.threads};
+  const typename BoundaryContacts<Law>::Context context{
+      s.spheres, s.boundary, s.boundary_list, s.table, s.contact_rule, s.step, s.threads};
   if constexpr (Law::has_dashpots)
     if (s.implicit_contact)
       return boundary_.evaluate_implicitly(context, *s.implicit_contact,

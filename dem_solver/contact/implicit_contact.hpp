@@ -31,6 +31,7 @@ class ImplicitSystem {
   void tie(ImplicitVelocities::Contact& contact, Index k, const Triple<double>& point) const noexcept {
     contact.body = body_of_[k];
     contact.lever = offset_[k] + point;
+    contact.saddle_lever = offset_[k];  // the force goes through the sphere's centre
   }
   /// @param velocity m/s; the relative velocity half a step before the forces' time
   void add(const ImplicitVelocities::Contact& contact, const Triple<double>& velocity) {

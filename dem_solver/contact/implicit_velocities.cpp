@@ -6,16 +6,67 @@ namespace {
 using Contact = ImplicitVelocities::Contact;
 using Bodies = ImplicitVelocities::Bodies;
 
-void push(const Contact& contact, const Triple<double>& force, double step, Bodies& bodies) noexcept {
-  Row& v = bodies.velocity[contact.body];
+/// Where a force acts on the body and on nodes of the boundary.
+struct Place {
+  const Triple<double>& lever;
+  const std::array<Index, 3>& nodes;
+  const std::array<double, 3>& weights;
+};
+Place at_contact(const Contact& contact) noexcept {
+  return {contact.lever, contact.nodes, contact.weights};
+}
+Place at_saddle(const Contact& contact) noexcept {
+  return {contact.saddle_lever, contact.saddle_nodes, contact.saddle_weights};
+}
+
+void push_at(const Place& at, Index body, const Triple<double>& force, double step, Bodies& bodies) noexcept {
+  Row& v = bodies.velocity[body];
   add(v, (step * v.w) * force);
-  Triple<double>& spin = bodies.spin[contact.body];
-  spin = spin + bodies.inverse_inertia[contact.body] * (step * cross(contact.lever, force));
+  Triple<double>& spin = bodies.spin[body];
+  spin = spin + bodies.inverse_inertia[body] * (step * cross(at.lever, force));
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (at.nodes[k] < 0) continue;
+    Row& node = bodies.node_velocity[at.nodes[k]];
+    add(node, (-step * at.weights[k] * node.w) * force);
+  }
+}
+
+bool has_saddle(const Contact& contact) noexcept {
+  return contact.saddle_nodes[0] >= 0;
+}
+
+void push(const Contact& contact, const Triple<double>& force, double step, Bodies& bodies) noexcept {
+  push_at(at_contact(contact), contact.body, force, step, bodies);
+  if (has_saddle(contact))
+    push_at(at_saddle(contact), contact.body, -dot(force, contact.normal) * contact.saddle_normal, step, bodies);
+}
+
+Triple<double> velocity_at(const Place& at, Index body, const Bodies& bodies) noexcept {
+  Triple<double> u = triple<double>(bodies.velocity[body]) + cross(bodies.spin[body], at.lever);
+  for (std::size_t k = 0; k < 3; ++k)
+    if (at.nodes[k] >= 0) u = u - at.weights[k] * triple<double>(bodies.node_velocity[at.nodes[k]]);
+  return u;
+}
+
+/// 1/kg; the velocity along the normal that a unit of impulse along it makes, saddle included: |J|^2 in the inverse masses.
+double normal_response_with_saddle(const Contact& contact, const Bodies& bodies) noexcept {
+  const Triple<double> n = contact.normal, s = contact.saddle_normal;
+  const Triple<double> along = n - s, turn = cross(contact.lever, n) - cross(contact.saddle_lever, s);
+  double sum = bodies.velocity[contact.body].w * dot(along, along) +
+               dot(turn, bodies.inverse_inertia[contact.body] * turn);
   for (std::size_t k = 0; k < 3; ++k) {
     if (contact.nodes[k] < 0) continue;
-    Row& node = bodies.node_velocity[contact.nodes[k]];
-    add(node, (-step * contact.weights[k] * node.w) * force);
+    Triple<double> moved = contact.weights[k] * n;
+    for (std::size_t j = 0; j < 3; ++j)
+      if (contact.saddle_nodes[j] == contact.nodes[k]) moved = moved - contact.saddle_weights[j] * s;
+    sum += bodies.node_velocity[contact.nodes[k]].w * dot(moved, moved);
   }
+  for (std::size_t j = 0; j < 3; ++j) {
+    const Index node = contact.saddle_nodes[j];
+    if (node < 0 || std::ranges::find(contact.nodes, node) != contact.nodes.end()) continue;
+    sum += bodies.node_velocity[node].w * contact.saddle_weights[j] * contact.saddle_weights[j];
+  }
+  return sum;
 }
 
 /// Some unit vector across a unit vector.
@@ -42,7 +93,9 @@ Response response(const Contact& contact, const Bodies& bodies) noexcept {
   const Triple<double> s = across(n), t = cross(n, s);
   // The larger eigenvalue of the two directions along the surface.
   const double ss = turning(s, s), tt = turning(t, t), st = turning(s, t), half = 0.5 * (ss - tt);
-  return {sum + turning(n, n), sum + 0.5 * (ss + tt) + std::sqrt(half * half + st * st)};
+  const double normal =
+      has_saddle(contact) ? normal_response_with_saddle(contact, bodies) : sum + turning(n, n);
+  return {normal, sum + 0.5 * (ss + tt) + std::sqrt(half * half + st * st)};
 }
 
 /// The normal force this contact answers with, all other forces as they are.
@@ -86,12 +139,10 @@ Triple<double> relax(Contact& contact, const Response& g, double step, Bodies& b
 }  // namespace
 
 Triple<double> ImplicitVelocities::relative_velocity(const Contact& contact, const Bodies& bodies) noexcept {
-  Triple<double> u =
-      triple<double>(bodies.velocity[contact.body]) + cross(bodies.spin[contact.body], contact.lever);
-  for (std::size_t k = 0; k < 3; ++k)
-    if (contact.nodes[k] >= 0)
-      u = u - contact.weights[k] * triple<double>(bodies.node_velocity[contact.nodes[k]]);
-  return u;
+  const Triple<double> u = velocity_at(at_contact(contact), contact.body, bodies);
+  if (!has_saddle(contact)) return u;
+  const double there = dot(velocity_at(at_saddle(contact), contact.body, bodies), contact.saddle_normal);
+  return u - there * contact.normal;
 }
 
 int ImplicitVelocities::solve(std::span<Contact> contacts, Bodies& bodies, double step,

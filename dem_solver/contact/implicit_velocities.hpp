@@ -63,6 +63,11 @@ class ImplicitVelocities {
     double coefficient = 0;                                   ///< of friction
     Triple<double> spring{};                                  ///< N; tangential, at t_n
     Triple<double> force{};                                   ///< N; found; a guess before
+    /// Of a contact that a saddle limits (ContactRule): the normal force acts there, too, reversed.
+    Triple<double> saddle_normal{};  ///< zero: there is none
+    Triple<double> saddle_lever{};   ///< m; from the body's centre
+    std::array<Index, 3> saddle_nodes{-1, -1, -1};
+    std::array<double, 3> saddle_weights{};
   };
   /// A symmetric matrix, 1/(kg m^2); zero where nothing turns the body.
   struct InverseInertia {
@@ -85,7 +90,7 @@ class ImplicitVelocities {
   /// @return the sweeps that were needed; most_sweeps + 1: not converged
   static int solve(std::span<Contact> contacts, Bodies& bodies, double step, const Control& control) noexcept;
 
-  /// u of a contact for the bodies' present velocities.
+  /// u of a contact for the bodies' present velocities; where a saddle limits it, what moves that counts along the normal.
   static Triple<double> relative_velocity(const Contact& contact, const Bodies& bodies) noexcept;
 };
 

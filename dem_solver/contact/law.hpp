@@ -85,6 +85,10 @@ struct ContactLaw {
     }
   }
 
+  /// N; of the normal dashpot at the last evaluation.
+  static double dashpot_force(const StoredMemory& memory) noexcept requires has_ledger {
+    return memory[ledger_row].w;
+  }
   /// J; of the springs at the last evaluation.
   static double stored_energy(const StoredMemory& memory) noexcept requires has_ledger {
     return memory[ledger_row + 1].x + memory[ledger_row + 1].y;

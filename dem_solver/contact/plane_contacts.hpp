@@ -82,6 +82,7 @@ class PlaneContacts : public ContactBatch<Law> {
                                            of_contacts([&](int k) { return plane(k).normal.z; })},
                                 .overlap = of_contacts([&](int k) { return contacts[k].overlap; })};
     meeting.reduced_radius = meeting.position.w;
+    meeting.arm = meeting.position.w - meeting.overlap;
     if constexpr (Law::spreads_over_area)
       meeting.area = seen_area(gathered(s.facing, sphere), meeting.normal);
     if constexpr (Law::has_friction) meeting.spin = triple(gathered(s.spin, sphere));

@@ -181,6 +181,14 @@ LawChoice::Normal normal_kind(const FoundationScene&) {
   return LawChoice::Normal::foundation;
 }
 
+/// Light nodes answer to the jump of the force where two minima change their ranks; a boundary at rest does not.
+ContactRule contact_rule_of(const ParticlesScene& particles, const BuildContext& context) {
+  using Rule = ParticlesScene::FeatureRule;
+  if (particles.contact_rule == Rule::automatic)
+    return context.moved_by_structure ? ContactRule::tangent_plane : ContactRule::local_minima;
+  return particles.contact_rule == Rule::local_minima ? ContactRule::local_minima : ContactRule::tangent_plane;
+}
+
 }  // namespace
 
 LawChoice law_of(const ParticlesScene& particles, const BuildContext& context) {
@@ -212,6 +220,7 @@ ParticleModel build_model(const ParticlesScene& particles, const mesh::Surface& 
   model.pairs = pair_table(particles);
   model.law = law_of(particles, context);
   if (particles.gravity) model.gravity = triple_of(*particles.gravity);
+  model.contact_rule = contact_rule_of(particles, context);
   if (particles.implicit_contact)
     model.implicit_contact = {.tolerance = particles.implicit_contact->tolerance,
                               .most_sweeps = static_cast<int>(particles.implicit_contact->most_sweeps)};

@@ -15,6 +15,7 @@ struct BuildContext {
   double step = 0;      ///< s
   bool ledger = false;  ///< the run writes energies
   int threads = 1;
+  bool moved_by_structure = false;  ///< the boundary, or a part of it
 };
 
 /// @pre the scene was read without complaints

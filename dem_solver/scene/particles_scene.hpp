@@ -47,6 +47,8 @@ struct ParticlesScene {
   Named<GateScene> gates;
   std::optional<double> step;  ///< s
   std::optional<ImplicitContactScene> implicit_contact;
+  /// Which features count; automatic: by whether a structure moves them.
+  enum class FeatureRule { automatic, local_minima, tangent_plane } contact_rule = FeatureRule::automatic;
   enum class UnstableStep { refused, allowed } unstable_step = UnstableStep::refused;
   std::int64_t threads = 1;
 };

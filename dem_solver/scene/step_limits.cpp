@@ -136,6 +136,7 @@ class LimitSearch {
 
  private:
   void rayleigh(Index i, const SphereInput& sphere) {
+    if (model_.law.spreads_over_area()) return;  // of bodies that are elastic as spheres
     const Material& m = context_.materials[sphere.material];
     const double shear = m.youngs_modulus / (2 * (1 + m.poissons_ratio));
     const double crossing = std::numbers::pi * sphere.radius * std::sqrt(m.density / shear) /

@@ -35,6 +35,11 @@ class RockOnCableNet(unittest.TestCase):
         self.assert_is_the_converged_motion("cable_net_strong", 0.01)
         self.assertEqual(self.runs["cable_net_strong"].summary["iterations"]["windows_not_converged"], 0)
 
+    def test_by_local_minima_the_balance_of_the_converged_net_closes(self):
+        run = Run("examples/cable_net_converged", "particles: {contact_rule: local_minima}\n")
+        self.assertLess(run.energy_error(), 1e-3)
+        self.assertGreater(self.runs["cable_net_converged"].energy_error(), 1e-2)
+
     def test_the_published_step_overshoots_and_says_so(self):
         summary = self.runs["cable_net"].summary
         self.assertLess(summary["peaks"]["net_centre.displacement_z_m"]["value"], 1.2 * PEAK)

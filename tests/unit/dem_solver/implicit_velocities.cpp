@@ -60,6 +60,14 @@ struct RandomSystem {
                           .tangential_stiffness = 1e4,
                           .tangential_damping = 2000 * unit(random),
                           .coefficient = 0.6});
+      if (k % 2 == 0) continue;
+      // Limited by a saddle: at the node that both features share, and a third one.
+      Contact& limited = contacts.back();
+      const Triple<double> s{0.2 * both(random), 0.2 * both(random), 1};
+      limited.saddle_normal = (1 / length(s)) * s;
+      limited.saddle_lever = {0.3 * both(random), 0.3 * both(random), -0.2};
+      limited.saddle_nodes = {k + 1, k - 1, -1};
+      limited.saddle_weights = {0.7, 0.3, 0};
     }
   }
 };
