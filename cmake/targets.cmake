@@ -5,7 +5,7 @@ function(talus_settings target)
   target_link_libraries(${target} PRIVATE talus_warnings PUBLIC talus_numerics)
 endfunction()
 
-# With COLD nothing of it is in a loop that a run waits for: -O1 in release builds, which takes half as long to compile.
+# With COLD nothing of it is in a loop that a run waits for: -O1 in release builds, which is quicker to compile.
 function(talus_library name)
   cmake_parse_arguments(ARG "COLD" "" "SOURCES;LINK;PRIVATE_LINK" ${ARGN})
   add_library(${name} STATIC ${ARG_SOURCES})

@@ -170,38 +170,40 @@ bool ParticleSolver::loads_end_with_blocks() const noexcept {
   return boundary_.empty() && pair_list_.wide().empty() && stage_clock_ == nullptr;
 }
 
+// The law is looked up for every block, which costs nothing beside it, so that the sweeps are compiled once and not for each
+// law.
+void ParticleSolver::meet_each_other(const ContactStage& stage, Index block) noexcept {
+  std::visit([&](auto& contacts) { contacts.between_spheres(stage, block); }, contacts_);
+}
+
+void ParticleSolver::meet_planes(const ContactStage& stage, Index block) noexcept {
+  std::visit([&](auto& contacts) { contacts.with_planes(stage, block); }, contacts_);
+}
+
 void ParticleSolver::advance_block_by_block() noexcept {
   const ContactStage stage = contact_stage();
-  std::visit(
-      [&](auto& contacts) {
-        sweep_blocks(
-            {pair_list_.block_count(), threads_},
-            [&](Index block) { spheres_.clear_loads(pair_list_.places(block)); },
-            [&](Index block) { contacts.between_spheres(stage, block); },
-            [&](Index block) {
-              if (!planes_.empty()) contacts.with_planes(stage, block);
-              move_block(block);
-            });
-      },
-      contacts_);
+  sweep_blocks(
+      {pair_list_.block_count(), threads_},
+      [&](Index block) { spheres_.clear_loads(pair_list_.places(block)); },
+      [&](Index block) { meet_each_other(stage, block); },
+      [&](Index block) {
+        if (!planes_.empty()) meet_planes(stage, block);
+        move_block(block);
+      });
 }
 
 void ParticleSolver::advance_stage_by_stage() noexcept {
   const ContactStage stage = contact_stage();
   const core::Tasks blocks{pair_list_.block_count(), threads_};
-  std::visit(
-      [&](auto& contacts) {
-        sweep_blocks(
-            blocks, [&](Index block) { spheres_.clear_loads(pair_list_.places(block)); },
-            [&](Index block) { contacts.between_spheres(stage, block); }, [](Index) {});
-        if (!pair_list_.wide().empty()) contacts.between_distant_spheres(stage);
-        core::lap(stage_clock_, between_spheres);
-        if (!planes_.empty())
-          core::parallel_tasks(
-              blocks, [&](std::int64_t block) { contacts.with_planes(stage, static_cast<Index>(block)); });
-        core::lap(stage_clock_, with_planes);
-      },
-      contacts_);
+  sweep_blocks(
+      blocks, [&](Index block) { spheres_.clear_loads(pair_list_.places(block)); },
+      [&](Index block) { meet_each_other(stage, block); }, [](Index) {});
+  if (!pair_list_.wide().empty())
+    std::visit([&](auto& contacts) { contacts.between_distant_spheres(stage); }, contacts_);
+  core::lap(stage_clock_, between_spheres);
+  if (!planes_.empty())
+    core::parallel_tasks(blocks, [&](std::int64_t block) { meet_planes(stage, static_cast<Index>(block)); });
+  core::lap(stage_clock_, with_planes);
   if (!boundary_.empty()) meet_boundary(stage);
   core::lap(stage_clock_, with_boundary);
   core::parallel_tasks(blocks, [&](std::int64_t block) { move_block(static_cast<Index>(block)); });

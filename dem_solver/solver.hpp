@@ -143,6 +143,8 @@ class ParticleSolver {
   // Two ways to the same bits: all stages of a block while the caches hold it, or one stage after the other.
   void advance_block_by_block() noexcept;
   void advance_stage_by_stage() noexcept;
+  void meet_each_other(const ContactStage& stage, Index block) noexcept;
+  void meet_planes(const ContactStage& stage, Index block) noexcept;
   void meet_boundary(const ContactStage& stage) noexcept;
   void move_block(Index block) noexcept;
   void move_rocks() noexcept;

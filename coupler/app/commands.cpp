@@ -13,9 +13,9 @@
 namespace talus::coupler {
 
 const std::vector<AddSubcommand>& subcommands() {
-  static const std::vector<AddSubcommand> all{add_run,        add_check,   add_explain, add_report,
-                                              add_study,      add_regress, add_schema,  add_mesh,
-                                              add_homogenise, add_version};
+  static const std::vector<AddSubcommand> all{add_run,   add_check,      add_explain, add_report,
+                                              add_study, add_regress,    add_schema,  add_barrier,
+                                              add_mesh,  add_homogenise, add_version};
   return all;
 }
 

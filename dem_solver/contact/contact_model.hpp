@@ -35,6 +35,13 @@ class ContactModel {
  public:
   using Law = ComposedLaw;
 
+  ContactModel();
+  ContactModel(const ContactModel& other);
+  ContactModel(ContactModel&& other) noexcept;
+  ContactModel& operator=(const ContactModel& other);
+  ContactModel& operator=(ContactModel&& other) noexcept;
+  ~ContactModel();
+
   void rebuild(const ContactStage& stage, const ContactMoves& moves);
   // Each of these adds the loads of some contacts to the spheres. The lists must be up to date, of blocks see
   // PairList.

@@ -6,6 +6,19 @@
 namespace talus::dem {
 
 template <class Law>
+ContactModel<Law>::ContactModel() = default;
+template <class Law>
+ContactModel<Law>::ContactModel(const ContactModel& other) = default;
+template <class Law>
+ContactModel<Law>::ContactModel(ContactModel&& other) noexcept = default;
+template <class Law>
+ContactModel<Law>& ContactModel<Law>::operator=(const ContactModel& other) = default;
+template <class Law>
+ContactModel<Law>& ContactModel<Law>::operator=(ContactModel&& other) noexcept = default;
+template <class Law>
+ContactModel<Law>::~ContactModel() = default;
+
+template <class Law>
 void ContactModel<Law>::rebuild(const ContactStage& stage, const ContactMoves& moves) {
   pairs_.rebuild(stage.pair_list, moves.pairs);
   planes_.rebuild(stage.plane_list, moves.planes);
@@ -29,8 +42,8 @@ void ContactModel<Law>::with_planes(const ContactStage& s, Index block) noexcept
 
 template <class Law>
 int ContactModel<Law>::with_boundary(const ContactStage& s) noexcept {
-  const typename BoundaryContacts<Law>::Context context{
-      s.spheres, s.boundary, s.boundary_list, s.table, s.contact_rule, s.step, s.threads};
+  const typename BoundaryContacts<Law>::Context context{s.spheres,      s.boundary, s.boundary_list, s.table,
+                                                        s.contact_rule, s.step,     s.threads};
   if constexpr (Law::has_dashpots)
     if (s.implicit_contact)
       return boundary_.evaluate_implicitly(context, *s.implicit_contact,

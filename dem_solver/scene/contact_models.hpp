@@ -34,7 +34,8 @@ struct VariantOf<std::tuple<Models...>> {
   using Type = std::variant<Models...>;
 };
 template <class... Combinations>
-using AnyOf = VariantOf<decltype(std::tuple_cat(std::declval<typename Combinations::Types>()...))>::Type;
+using AnyOf =
+    typename VariantOf<decltype(std::tuple_cat(std::declval<typename Combinations::Types>()...))>::Type;
 
 /// The chosen model. A scene without friction, rolling resistance or ledger runs code that does not contain
 /// them.
