@@ -59,10 +59,12 @@ void describe(core::Fields& fields, ParticlesScene& particles) {
       "together with the nodes' own motion; absent: with the velocity half a step ago");
   fields.rule(!(particles.step && particles.implicit_contact), "step",
               "contradicts implicit_contact, which takes one step a coupling window");
-  fields.choice("contact_rule", particles.contact_rule, {"automatic", "local_minima", "tangent_plane"},
-                "which of the wires and faces that a sphere overlaps count: every local minimum of the distance as far as it "
-                "stands out, or those not beyond a nearer one's tangent plane, as published curves have it; automatic: "
-                "tangent_plane where a structure moves the boundary, else local_minima");
+  fields.choice(
+      "contact_rule", particles.contact_rule, {"automatic", "local_minima", "tangent_plane"},
+      "which of the wires and faces that a sphere overlaps count: every local minimum of the distance as far "
+      "as it "
+      "stands out, or those not beyond a nearer one's tangent plane, as published curves have it; automatic: "
+      "tangent_plane where a structure moves the boundary, else local_minima");
   fields.choice("unstable_step", particles.unstable_step, {"refused", "allowed"},
                 "what to do with a step above a stability limit");
   fields.with_default("threads", particles.threads,

@@ -11,7 +11,8 @@ template <class Height>
 Boundary faces(int n, const Height& height) {
   mesh::Surface surface;
   for (int i = 0; i <= n; ++i)
-    for (int j = 0; j <= n; ++j) surface.positions.insert(surface.positions.end(), {1.0 * i, 1.0 * j, height(i, j)});
+    for (int j = 0; j <= n; ++j)
+      surface.positions.insert(surface.positions.end(), {1.0 * i, 1.0 * j, height(i, j)});
   const auto at = [n](int i, int j) { return static_cast<mesh::Index>(i * (n + 1) + j); };
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < n; ++j) {
@@ -27,15 +28,17 @@ template <class Height>
 Boundary wires(int n, double radius, const Height& height) {
   mesh::Surface surface;
   for (int i = 0; i <= n; ++i)
-    for (int j = 0; j <= n; ++j) surface.positions.insert(surface.positions.end(), {1.0 * i, 1.0 * j, height(i, j)});
+    for (int j = 0; j <= n; ++j)
+      surface.positions.insert(surface.positions.end(), {1.0 * i, 1.0 * j, height(i, j)});
   const auto at = [n](int i, int j) { return static_cast<mesh::Index>(i * (n + 1) + j); };
   for (int i = 0; i <= n; ++i)
     for (int j = 0; j <= n; ++j) {
       if (i < n) surface.segments.push_back({at(i, j), at(i + 1, j)});
       if (j < n) surface.segments.push_back({at(i, j), at(i, j + 1)});
     }
-  surface.parts = {
-      {.name = "net", .wire_radius = radius, .segment_end = static_cast<mesh::Index>(surface.segments.size())}};
+  surface.parts = {{.name = "net",
+                    .wire_radius = radius,
+                    .segment_end = static_cast<mesh::Index>(surface.segments.size())}};
   return Boundary(surface, std::vector<Index>{0});
 }
 
@@ -74,7 +77,8 @@ double random_height(int i, int j) {
 
 }  // namespace
 
-TEST_CASE("The contacts' forces on a rough ground and on a net are the derivative of an energy without steps") {
+TEST_CASE(
+    "The contacts' forces on a rough ground and on a net are the derivative of an energy without steps") {
   const bool of_wires = GENERATE(false, true);
   const Boundary boundary = of_wires ? wires(8, 0.05, random_height) : faces(8, random_height);
   std::mt19937 random(7);
@@ -83,10 +87,12 @@ TEST_CASE("The contacts' forces on a rough ground and on a net are the derivativ
   int limited = 0, tried = 0;
   for (int n = 0; n < 400; ++n) {
     const Triple<double> centre{along(random), along(random), 1.0 + 0.4 * direction(random)};
-    for (const FeatureTouch& touch : touches_of(boundary, centre, radius)) limited += touch.saddle.feature >= 0;
+    for (const FeatureTouch& touch : touches_of(boundary, centre, radius))
+      limited += touch.saddle.feature >= 0;
     // Along a straight way the energy has no steps: between points h apart it changes by what the force says.
     const Triple<double> step{h * direction(random), h * direction(random), h * direction(random)};
-    const double change = energy(boundary, centre + step, radius) - energy(boundary, centre - (1.0 * step), radius);
+    const double change =
+        energy(boundary, centre + step, radius) - energy(boundary, centre - (1.0 * step), radius);
     const double work = -2 * dot(force(boundary, centre, radius), step);
     const double size = length(force(boundary, centre, radius)) * h;
     if (size == 0) continue;

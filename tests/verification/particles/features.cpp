@@ -20,10 +20,12 @@ mesh::Surface bowl(double radius, int rings, int around) {
     for (int k = 0; k < around; ++k) {
       const double down = steepest * r / rings, turn = 2 * std::numbers::pi * (k + 0.5 * r) / around;
       surface.positions.insert(surface.positions.end(),
-                               {radius * std::sin(down) * std::cos(turn), radius * std::sin(down) * std::sin(turn),
-                                radius * (1 - std::cos(down))});
+                               {radius * std::sin(down) * std::cos(turn),
+                                radius * std::sin(down) * std::sin(turn), radius * (1 - std::cos(down))});
     }
-  const auto at = [around](int r, int k) { return static_cast<mesh::Index>(1 + (r - 1) * around + k % around); };
+  const auto at = [around](int r, int k) {
+    return static_cast<mesh::Index>(1 + (r - 1) * around + k % around);
+  };
   for (int k = 0; k < around; ++k) {
     surface.triangles.push_back({0, at(1, k), at(1, k + 1)});
     for (int r = 1; r < rings; ++r) {
@@ -79,8 +81,7 @@ TEST_CASE("A funnel of N facets holds a ball with N springs") {
   for (int i = 0; i < facets; ++i)
     surface.positions.insert(surface.positions.end(), {std::cos(2 * i * half) / std::cos(half),
                                                        std::sin(2 * i * half) / std::cos(half), 1});
-  for (mesh::Index i = 0; i < facets; ++i)
-    surface.triangles.push_back({0, 1 + i, 1 + (i + 1) % facets});
+  for (mesh::Index i = 0; i < facets; ++i) surface.triangles.push_back({0, 1 + i, 1 + (i + 1) % facets});
   surface.parts = {{.name = "funnel", .triangle_end = static_cast<mesh::Index>(facets)}};
   const std::array<Index, 1> material{1};
   model.boundary = Boundary(surface, material);
