@@ -59,12 +59,11 @@ mesh::Surface displaced(mesh::Surface surface) {
 
 ParticleModel model_of(const RunScene& scene, const mesh::Surface& surface, bool moved_by_structure) {
   const int threads = std::max(static_cast<int>(scene.particles.threads), core::thread_count());
-  ParticleModel model = build_model(
-      scene.particles, surface,
-      {.step = own_step(scene).value_or(0),
-       .ledger = scene.output.has_value(),
-       .threads = threads,
-       .moved_by_structure = moved_by_structure});
+  ParticleModel model = build_model(scene.particles, surface,
+                                    {.step = own_step(scene).value_or(0),
+                                     .ledger = scene.output.has_value(),
+                                     .threads = threads,
+                                     .moved_by_structure = moved_by_structure});
   if (surface.start.empty()) {
     check_start(scene.particles, model, surface);
     return model;

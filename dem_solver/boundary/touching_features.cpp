@@ -29,8 +29,8 @@ bool shares_point(const Feature& feature, const Weights& weights, const Feature&
 }
 
 /// The nearest point of a node or edge, as a point of a feature that has it.
-FeatureSaddle saddle_at(const Boundary& boundary, const Triple<double>& centre, const std::array<Index, 2>& nodes,
-                        Index feature) noexcept {
+FeatureSaddle saddle_at(const Boundary& boundary, const Triple<double>& centre,
+                        const std::array<Index, 2>& nodes, Index feature) noexcept {
   const Triple<double> a = boundary.position(nodes[0]), b = boundary.position(nodes[1]);
   const Weights along = nodes[0] == nodes[1] ? Weights{1, 0, 0} : closest_on_segment(centre, a, b);
   const Triple<double> out = centre - (a + along.b * (b - a));
@@ -39,7 +39,8 @@ FeatureSaddle saddle_at(const Boundary& boundary, const Triple<double>& centre, 
   const auto share = [&](Index node) {
     return node == nodes[0] ? along.a : node == nodes[1] ? along.b : 0.0;
   };
-  saddle.weights = {share(owner.nodes[0]), share(owner.nodes[1]), owner.is_segment() ? 0.0 : share(owner.nodes[2])};
+  saddle.weights = {share(owner.nodes[0]), share(owner.nodes[1]),
+                    owner.is_segment() ? 0.0 : share(owner.nodes[2])};
   return saddle;
 }
 
@@ -61,7 +62,8 @@ void TouchSearch::reserve(std::size_t candidates) {
 }
 
 std::span<const FeatureTouch> TouchSearch::find(const Boundary& boundary, const Row& sphere,
-                                                std::span<const Index> candidates, ContactRule rule) noexcept {
+                                                std::span<const Index> candidates,
+                                                ContactRule rule) noexcept {
   touches_.clear();
   const Triple<double> centre = triple<double>(sphere);
   for (Index k : candidates) {
@@ -112,9 +114,10 @@ void TouchSearch::keep_local_minima(const Boundary& boundary, const Row& sphere)
 bool TouchSearch::is_only_minimum(const Boundary& boundary) const noexcept {
   for (std::size_t k = 1; k < touches_.size(); ++k) {
     const Feature& own = boundary.features()[touches_[k].feature];
-    const bool leads_down = std::any_of(touches_.begin(), touches_.begin() + k, [&](const FeatureTouch& nearer) {
-      return shares_point(own, touches_[k].weights, boundary.features()[nearer.feature]);
-    });
+    const bool leads_down =
+        std::any_of(touches_.begin(), touches_.begin() + k, [&](const FeatureTouch& nearer) {
+          return shares_point(own, touches_[k].weights, boundary.features()[nearer.feature]);
+        });
     if (!leads_down) return false;
   }
   return true;
@@ -128,7 +131,8 @@ void TouchSearch::find_links(const Boundary& boundary, const Row& sphere) noexce
     for (int c = 0; c < corners; ++c) {
       const Index node = feature.nodes[c], next = feature.nodes[(c + 1) % 3];
       shared_.push_back({{node, node}, static_cast<Index>(k)});
-      if (corners == 3) shared_.push_back({{std::min(node, next), std::max(node, next)}, static_cast<Index>(k)});
+      if (corners == 3)
+        shared_.push_back({{std::min(node, next), std::max(node, next)}, static_cast<Index>(k)});
     }
   }
   std::ranges::sort(shared_, [](const Shared& a, const Shared& b) {
@@ -142,8 +146,9 @@ void TouchSearch::find_links(const Boundary& boundary, const Row& sphere) noexce
     const double axis_distance = distance_to(boundary, centre, shared_[begin].nodes);
     for (std::size_t k = begin + 1; k < end; ++k) {
       const Index first = shared_[begin].touch, second = shared_[k].touch;
-      const double level = axis_distance - std::min(boundary.features()[touches_[first].feature].wire_radius,
-                                                    boundary.features()[touches_[second].feature].wire_radius);
+      const double level =
+          axis_distance - std::min(boundary.features()[touches_[first].feature].wire_radius,
+                                   boundary.features()[touches_[second].feature].wire_radius);
       if (level < sphere.w) links_.push_back({level, first, second, shared_[begin].nodes});
     }
   }
@@ -171,9 +176,8 @@ void TouchSearch::limit_by_saddles(const Boundary& boundary, const Row& sphere) 
     if (ends.reach > ends.distance * (1 + round_off))
       ends.saddle = saddle_at(boundary, triple<double>(sphere), link.nodes, touches_[link.first].feature);
   }
-  std::erase_if(touches_, [](const FeatureTouch& touch) {
-    return touch.reach <= touch.distance * (1 + round_off);
-  });
+  std::erase_if(touches_,
+                [](const FeatureTouch& touch) { return touch.reach <= touch.distance * (1 + round_off); });
 }
 
 }  // namespace talus::dem

@@ -13,7 +13,8 @@ struct FeatureTouch {
   Triple<double> normal;  ///< unit vector to the centre
   Weights weights;
   Index feature = -1;
-  double reach = 0;      ///< m; distance at which the contact ends, as far as its saddle: the overlap is reach - distance
+  double reach =
+      0;  ///< m; distance at which the contact ends, as far as its saddle: the overlap is reach - distance
   FeatureSaddle saddle;  ///< that ends it; of feature -1: none, it ends where the sphere does
 };
 
@@ -25,8 +26,8 @@ class TouchSearch {
 
   /// The candidates that count as contacts, nearest first, one feature once. Sorting by distance makes the result
   /// independent of the order of the features.
-  std::span<const FeatureTouch> find(const Boundary& boundary, const Row& sphere, std::span<const Index> candidates,
-                                     ContactRule rule) noexcept;
+  std::span<const FeatureTouch> find(const Boundary& boundary, const Row& sphere,
+                                     std::span<const Index> candidates, ContactRule rule) noexcept;
 
  private:
   /// What two or more features share: a node, or the edge of two nodes.

@@ -197,9 +197,9 @@ class BoundaryContacts : public ContactBatch<Law> {
             .parameters = &context.table(context.spheres.material[i], feature.material),
             .has_saddle = limited,
             .saddle_normal = saddle.normal,
-            .saddle_velocity =
-                limited ? context.boundary.velocity_at(context.boundary.features()[saddle.feature], saddle.weights)
-                        : Triple<double>{}};
+            .saddle_velocity = limited ? context.boundary.velocity_at(
+                                             context.boundary.features()[saddle.feature], saddle.weights)
+                                       : Triple<double>{}};
   }
 
   /// m^2; a wire covers a strip of the sphere's share of the surface, so that what a wire along a rock meets is its own
@@ -219,8 +219,10 @@ class BoundaryContacts : public ContactBatch<Law> {
                        const Triple<double>& velocity_gain, Memory& memory, ContactWork& work) noexcept {
     RigidTouch touch = rigid_touch(context, i, contact);
     touch.velocity_gain = velocity_gain;
-    if constexpr (Law::has_ledger) work += work_of_last_pull(context, i, contact, touch, Law::dashpot_force(memory));
-    const auto [force, pull] = evaluate_rigid_contact<Law>(context.spheres, touch, context.step, memory, work);
+    if constexpr (Law::has_ledger)
+      work += work_of_last_pull(context, i, contact, touch, Law::dashpot_force(memory));
+    const auto [force, pull] =
+        evaluate_rigid_contact<Law>(context.spheres, touch, context.step, memory, work);
     if constexpr (Law::has_ledger)
       work.boundary += 0.5 * context.step *
                        (dot(triple<double>(contact.force) + force, touch.partner_velocity) +

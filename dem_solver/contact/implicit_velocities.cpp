@@ -38,7 +38,8 @@ bool has_saddle(const Contact& contact) noexcept {
 void push(const Contact& contact, const Triple<double>& force, double step, Bodies& bodies) noexcept {
   push_at(at_contact(contact), contact.body, force, step, bodies);
   if (has_saddle(contact))
-    push_at(at_saddle(contact), contact.body, -dot(force, contact.normal) * contact.saddle_normal, step, bodies);
+    push_at(at_saddle(contact), contact.body, -dot(force, contact.normal) * contact.saddle_normal, step,
+            bodies);
 }
 
 Triple<double> velocity_at(const Place& at, Index body, const Bodies& bodies) noexcept {

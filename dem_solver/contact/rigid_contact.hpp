@@ -60,9 +60,9 @@ struct RigidTouch {
   Triple<double> velocity_gain;     ///< m/s; of the sphere over the partner from t_n - step/2 to
                                     ///< t_n + step/2 where the contact is implicit, else zero
   const PairParameters* parameters = nullptr;
-  bool has_saddle = false;          ///< that limits the overlap and to which the sphere is drawn
-  Triple<double> saddle_normal;     ///< unit vector towards the sphere's centre
-  Triple<double> saddle_velocity;   ///< m/s; of the saddle
+  bool has_saddle = false;         ///< that limits the overlap and to which the sphere is drawn
+  Triple<double> saddle_normal;    ///< unit vector towards the sphere's centre
+  Triple<double> saddle_velocity;  ///< m/s; of the saddle
 };
 
 template <class Law>
@@ -106,7 +106,7 @@ struct RigidForce {
 /// Adds the contact's load to the sphere.
 template <class Law>
 RigidForce evaluate_rigid_contact(Spheres& spheres, const RigidTouch& at, double step,
-                                      typename Law::StoredMemory& stored, ContactWork& work) noexcept {
+                                  typename Law::StoredMemory& stored, ContactWork& work) noexcept {
   const RigidMeeting<double> meeting = meeting_of<Law>(spheres, at);
   Touch<double> touch = touch_of<Law>(spheres, at);
   touch.velocity = touch.velocity + at.velocity_gain;

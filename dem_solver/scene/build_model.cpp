@@ -186,7 +186,8 @@ ContactRule contact_rule_of(const ParticlesScene& particles, const BuildContext&
   using Rule = ParticlesScene::FeatureRule;
   if (particles.contact_rule == Rule::automatic)
     return context.moved_by_structure ? ContactRule::tangent_plane : ContactRule::local_minima;
-  return particles.contact_rule == Rule::local_minima ? ContactRule::local_minima : ContactRule::tangent_plane;
+  return particles.contact_rule == Rule::local_minima ? ContactRule::local_minima
+                                                      : ContactRule::tangent_plane;
 }
 
 }  // namespace
