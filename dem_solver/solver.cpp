@@ -312,8 +312,10 @@ void ParticleSolver::add_spheres_to(ParticleLedger& ledger) const noexcept {
     ledger.kinetic += 0.5 * mass * (dot(v, before) - product_of_unequal_steps(last, v, acceleration));
     if (!spheres_.rotates()) continue;
     const double inertia = 0.4 * mass * radius * radius;
-    const Triple<double> w = triple<double>(spheres_.spin[i]);
-    ledger.rotation += 0.5 * inertia * dot(w, w - (last.kick / inertia) * triple<double>(spheres_.torque[i]));
+    const Triple<double> w = triple<double>(spheres_.spin[i]),
+                         turning = (1 / inertia) * triple<double>(spheres_.torque[i]);
+    ledger.rotation +=
+        0.5 * inertia * (dot(w, w - last.kick * turning) - product_of_unequal_steps(last, w, turning));
   }
 }
 

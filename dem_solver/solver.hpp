@@ -153,8 +153,8 @@ class ParticleSolver {
   [[noreturn]] void report_not_finite() const;
   ContactStage contact_stage() noexcept;
   double gravity_work_level() const noexcept;
-  /// s; the velocity of the first step belongs to the middle of one as long before it
-  double last_step() const noexcept { return steps_done_ > 0 ? previous_step_ : step_; }
+  /// s; none before the first: the velocity at the start belongs to the time of the start
+  double last_step() const noexcept { return previous_step_; }
   LeapfrogStep this_leap() const noexcept { return {gravity_, step_, kick_}; }
   LeapfrogStep last_leap() const noexcept;
   void add_spheres_to(ParticleLedger& ledger) const noexcept;

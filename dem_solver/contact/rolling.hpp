@@ -30,7 +30,8 @@ struct ConstantTorque {
     const Triple<Real> w = rolling_velocity(touch);
     const Real speed = square_root(dot(w, w));
     const Real limit = p.rolling.x * touch.reduced_radius * normal.total;
-    const Real stopping = touch.reduced_inertia * speed / step;
+    const Real stopping =
+        touch.reduced_inertia * speed / (step > 0 ? step : 1e-300);  // at a start none is behind
     return (-smaller(limit, stopping) / larger(speed, tiny)) * w;
   }
 };

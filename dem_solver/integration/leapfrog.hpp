@@ -38,9 +38,8 @@ struct MotionSummary {
 ///     v_{n+1/2} = v_{n-1/2} + (F(x_n)/m + g) kick      x_{n+1} = x_n + v_{n+1/2} step
 ///     w_{n+1/2} = w_{n-1/2} + T(x_n)/I kick            I = 2/5 m R^2
 ///     kick = (step_before + step)/2
-/// The scene's velocity at time 0 is taken as v_{-1/2}; so free fall is z_n = z_0 + n v step - g step^2 n (n
-/// + 1)/2 exactly. Stable for step < 2 sqrt(m/k). Test: "Free fall follows the discrete parabola to
-/// round-off", "Free fall is exact
+/// The scene's velocity belongs to time 0, so the first kick is step/2 long, and free fall is the parabola exactly. Stable for step < 2 sqrt(m/k). Test: "Free fall is the parabola
+/// to round-off", "Free fall is exact
 /// in steps of changing length".
 MotionSummary kick_and_drift(Spheres& spheres, core::Block run, const LeapfrogStep& how) noexcept;
 

@@ -131,11 +131,14 @@ Rocks::Energy Rocks::energy(Index k, const LeapfrogStep& last) const noexcept {
   const Triple<double> acceleration = (1 / mass_[k]) * force_[k] + last.gravity;
   const Triple<double> before = velocity_[k] - last.kick * acceleration;
   const Triple<double> momentum_before = momentum_[k] - last.kick * torque_[k];
-  const Triple<double> w =
-      angular_velocity(last.kick > 0 ? orientation_before_[k] : orientation_[k], momentum_[k], moments_[k]);
+  const Quaternion& then = last.kick > 0 ? orientation_before_[k] : orientation_[k];
+  const Triple<double> w = angular_velocity(then, momentum_[k], moments_[k]),
+                       turning = angular_velocity(then, torque_[k], moments_[k]);
+  // As product_of_unequal_steps(), of turning.
+  const double of_unequal_steps = (last.step - last.kick) * dot(torque_[k], w - (0.5 * last.step) * turning);
   const double product =
       dot(velocity_[k], before) - product_of_unequal_steps(last, velocity_[k], acceleration);
-  return {0.5 * mass_[k] * product, 0.5 * dot(w, momentum_before)};
+  return {0.5 * mass_[k] * product, 0.5 * (dot(w, momentum_before) - of_unequal_steps)};
 }
 
 }  // namespace talus::dem

@@ -12,7 +12,7 @@ namespace talus::test {
 using namespace dem;
 
 LeanParticles::LeanParticles(const ParticleModel& model)
-    : pairs_(model.pairs), step_(model.step), skin_(model.skin) {
+    : pairs_(model.pairs), step_(model.step), kick_(0.5 * model.step), skin_(model.skin) {
   spheres_.add(model.spheres, {});
 }
 
@@ -20,6 +20,7 @@ void LeanParticles::step() {
   find_neighbours();
   sweep([this](Index block) { move(block); });
   watch_motion();
+  kick_ = last_step_ = step_;
 }
 
 template <class Finish>
@@ -32,7 +33,7 @@ void LeanParticles::sweep(const Finish& finish) {
 
 void LeanParticles::move(Index block) {
   motion_ +=
-      kick_and_drift(spheres_, pair_list_.places(block), {.gravity = {}, .step = step_, .kick = step_});
+      kick_and_drift(spheres_, pair_list_.places(block), {.gravity = {}, .step = step_, .kick = kick_});
 }
 
 void LeanParticles::watch_motion() {
@@ -51,7 +52,7 @@ ContactStage LeanParticles::contact_stage() {
           .plane_list = plane_list_,
           .boundary_list = boundary_list_,
           .table = pairs_,
-          .step = step_};
+          .step = last_step_};
 }
 
 void LeanParticles::find_neighbours() {

@@ -27,7 +27,7 @@ class LeanParticles : public Stepper {
 
   dem::Spheres spheres_;
   dem::PairTable pairs_;
-  double step_ = 0, skin_ = 0, approached_ = 0;
+  double step_ = 0, last_step_ = 0, kick_ = 0, skin_ = 0, approached_ = 0;
   dem::PairList pair_list_;
   dem::PlaneList plane_list_;
   dem::Boundary boundary_;
