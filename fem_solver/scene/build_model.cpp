@@ -10,6 +10,7 @@
 #include "fem_solver/constraints/held_directions.hpp"
 #include "fem_solver/scene/make_elements.hpp"
 #include "fem_solver/scene/node_sets.hpp"
+#include "fem_solver/scene/rope_order.hpp"
 #include "fem_solver/scene/unheld_parts.hpp"
 #include "fem_solver/scene/weld.hpp"
 #include "interface_mesh/surface_checks.hpp"
@@ -57,6 +58,7 @@ class Builder {
   void add_mesh(const std::string& name, const PartScene& part, const mesh::Net& net);
   void weld();
   void lead_through(const std::string& name, const PartScene& part, const ThroughScene& through);
+  bool is_box(const std::string& set) const;
   Index add_node(const Vector3& position);
   void put_sliders_on_ropes();
   void add_elements(MeshedPart& part);
@@ -135,13 +137,32 @@ void Builder::put_sliders_on_ropes() {
   }
 }
 
+/// Whether a box selected the set's nodes, which have no order along a rope then.
+bool Builder::is_box(const std::string& set) const {
+  const auto found = std::ranges::find(scene_.node_sets, set, [](const auto& entry) { return entry.first; });
+  return found != scene_.node_sets.end() && found->second.box.has_value();
+}
+
 void Builder::lead_through(const std::string& name, const PartScene& part, const ThroughScene& through) {
+  std::vector<RopeStretch> stretches;
+  if (through.from) stretches.push_back({{add_node(*through.from)}});
+  for (const auto& set : through.nodes) {
+    const auto& nodes = find_node_set(model_, part.place, set);
+    stretches.push_back({{nodes.begin(), nodes.end()}, !is_box(set)});
+  }
+  if (through.to) stretches.push_back({{add_node(*through.to)}});
+  put_in_order(stretches, model_);
   std::vector<Index> nodes;
-  if (through.from) nodes.push_back(add_node(*through.from));
-  for (const auto& set : through.nodes)
-    for (const Index node : find_node_set(model_, part.place, set))
+  for (const RopeStretch& stretch : stretches)
+    for (const Index node : stretch.nodes)
       if (nodes.empty() || nodes.back() != node) nodes.push_back(node);
-  if (through.to) nodes.push_back(add_node(*through.to));
+  const double way = way_along(nodes, model_), shortest = way_to_nearest(nodes, model_);
+  if (constexpr double to_and_fro = 2; way > to_and_fro * shortest)
+    core::log_warning(
+        fmt::format("{}: structure.parts.{}: the rope is {:.4g} m long, and {:.4g} m from each node to the "
+                    "nearest one left: it "
+                    "runs to and fro, as its sets list their nodes",
+                    part.place, name, way, shortest));
   MeshedPart& meshed = parts_.emplace_back(MeshedPart{name, &part, {}, {}});
   for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
     if ((model_.position(nodes[i]) - model_.position(nodes[i + 1])).isZero(0))

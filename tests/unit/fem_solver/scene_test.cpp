@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <set>
 
+#include "core/program/log.hpp"
 #include "core/scene/reader.hpp"
 #include "fem_solver/app/structure.hpp"
 #include "fem_solver/scene/build_model.hpp"
@@ -60,6 +61,32 @@ TEST_CASE("a rope leads through the nodes of another part, with ends of its own"
   CHECK(model.position(rope.front()).x() == -1);
   CHECK(model.position(rope.back()).x() == 4);
   CHECK(rope[1] == model.node_sets.at("net.edge_south").front());
+}
+
+TEST_CASE("a rope runs along the nodes that a box selects, whichever end it comes from") {
+  const bool from_above = GENERATE(false, true);
+  const std::string ends = from_above ? "from: [0, 4, 0], to: [0, -1, 0]" : "from: [0, -1, 0], to: [0, 4, 0]";
+  const Structure structure(
+      scene("  parts:\n    net: {square_net: {corner: [0, 0, 0], size: [3, 3], pitch: 1}, " + cable +
+            "}\n    rope: {through: {nodes: [west], " + ends + "}, " + cable +
+            "}\n  node_sets: {west: {box: {low: [-0.1, -0.1, -1], high: [0.1, 3.1, 1]}}}\n"));
+  const Model& model = structure.model();
+  const auto& rope = model.node_sets.at("rope");
+  REQUIRE(rope.size() == 6);
+  for (std::size_t k = 0; k < rope.size(); ++k)
+    CHECK(model.position(rope[k]).y() ==
+          (from_above ? 4.0 - static_cast<double>(k) : static_cast<double>(k) - 1));
+}
+
+TEST_CASE("a rope that runs to and fro is warned of with its length and the way there is") {
+  const auto before = talus::core::warnings_said().size();
+  const Structure structure(scene(
+      "  parts:\n    net: {square_net: {corner: [0, 0, 0], size: [3, 3], pitch: 1}, " + cable +
+      "}\n    rope: {through: {nodes: [net.edge_south], from: [4, 0, 0], to: [-1, 0, 0]}, " + cable + "}\n"));
+  const auto said = talus::core::warnings_said();
+  REQUIRE(said.size() > before);
+  CHECK_THAT(said.back(),
+             Catch::Contains("the rope is 11 m long, and 5 m from each node to the nearest one left"));
 }
 
 TEST_CASE("without a step the structure takes half of its limit") {
