@@ -1,9 +1,10 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <fstream>
 #include <memory>
+#include <numbers>
 
+#include "core/output/file.hpp"
 #include "core/program/log.hpp"
 #include "coupler/app/commands.hpp"
 #include "coupler/barrier/scene_text.hpp"
@@ -37,16 +38,13 @@ core::ExitCode write_barrier(const BarrierRequest& request) {
   if (std::filesystem::exists(out) && !request.overwrite)
     throw core::ConfigError(
         fmt::format("{}: is there already; --overwrite replaces it, --out names another", out.string()));
-  std::ofstream file(out);
-  file << barrier::scene_text(loaded, layout, request.sheet.filename().string());
-  file.close();
-  if (!file) throw core::ConfigError(fmt::format("{}: cannot be written", out.string()));
+  core::replace_file(out, barrier::scene_text(loaded, layout, request.sheet.filename().string()));
   fmt::print(
       "{}: {} posts, block of {:.4g} kg ({:.3f} m) at {:.4g} m/s, {:.4g} kJ; posts to retaining ropes {:.1f} "
       "deg\n",
       out.string(), layout.feet.size(), loaded.sheet.block.mass, layout.block_edge, loaded.sheet.block.speed,
       0.5e-3 * loaded.sheet.block.mass * loaded.sheet.block.speed * loaded.sheet.block.speed,
-      layout.retaining_angle * 57.29577951308232);
+      layout.retaining_angle * 180 / std::numbers::pi);
   fmt::print("{}next: talus run {}\n", barrier::assumptions(loaded.sheet), out.string());
   return core::ExitCode::success;
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "coupler/barrier/components.hpp"
@@ -41,7 +42,7 @@ class Writer {
   }
 
   std::string text() {
-    line(0, "title: \"{}\"", title_);
+    line(0, "title: {}", nlohmann::json(title_).dump());  // quoted as YAML takes it, too
     line(0, "");
     line(0, "time: {{end: {} s, step: {} us}}  # test", number(sheet_.test.time), number(1e6 * step()));
     structure();

@@ -111,9 +111,15 @@ class BoundaryContacts : public ContactBatch<Law> {
     Index slot = begin;
     for (const FeatureTouch& touch : touches) {
       const Index part = context.boundary.features()[touch.feature].part;
-      const OldContact old = continued(scratch.old, touch.normal, part);
+      OldContact old = continued(scratch.old, touch.normal, part);
+      Row normal = row(touch.normal, touch.distance);
+      if (old.contact.part < 0 && !context.boundary.features()[touch.feature].is_segment()) {
+        // A centre that was pressed through a face is still on the side that it came from.
+        old = continued(scratch.old, -1.0 * touch.normal, part);
+        if (old.contact.part >= 0) normal = row(-1.0 * touch.normal, -touch.distance);
+      }
       context.list.contacts()[slot] = {.force = old.contact.force,
-                                       .normal = row(touch.normal, touch.distance),
+                                       .normal = normal,
                                        .weights = touch.weights,
                                        .feature = touch.feature,
                                        .part = part,
@@ -156,7 +162,7 @@ class BoundaryContacts : public ContactBatch<Law> {
   }
 
   /// The sphere's contact of the last step that this one continues: the same part's, with the nearest normal;
-  /// empty where there is none.
+  /// empty, of part -1, where there is none.
   static OldContact continued(std::vector<OldContact>& old, const Triple<double>& normal,
                               Index part) noexcept {
     OldContact* best = nullptr;

@@ -87,31 +87,31 @@ struct Hysteretic {
 
   template <class Real>
   TALUS_INLINE static NormalForce<Real> force(const Touch<Real>& touch, const ContactParameters<Real>& p,
-                                              Quad<Real>& memory) noexcept {
+                                              Quad<Real>* memory) noexcept {
     const Real zero{};
     const Real d = larger(touch.overlap, zero);
-    if constexpr (spreads_over_area) memory.x = memory.w > zero ? memory.x : touch.area;
-    memory.w = d > zero ? larger(memory.w, d) : zero;
-    const Unloading<Real> at = unloading(touch, p, memory);
+    if constexpr (spreads_over_area) memory->x = memory->w > zero ? memory->x : touch.area;
+    memory->w = d > zero ? larger(memory->w, d) : zero;
+    const Unloading<Real> at = unloading(touch, p, *memory);
     const Real f = at.largest * Loading::shape(at.x);
     const Real stiffness =
         (Loading::power * at.largest * Loading::slope(at.x)) / larger(at.range, zero + 1e-300);
-    return {f, f, d > zero ? stiffness : zero, zero, Loading::tangential(begun(touch, memory), p, d), zero};
+    return {f, f, d > zero ? stiffness : zero, zero, Loading::tangential(begun(touch, *memory), p, d), zero};
   }
 
   template <class Real>
   TALUS_INLINE static Real energy(const Touch<Real>& touch, const ContactParameters<Real>& p,
-                                  const Quad<Real>& memory) noexcept {
-    const Unloading<Real> at = unloading(touch, p, memory);
+                                  const Quad<Real>* memory) noexcept {
+    const Unloading<Real> at = unloading(touch, p, *memory);
     return Loading::work_share * at.largest * Loading::shape(at.x) * at.x * at.range;
   }
 
   /// J; since the contact began.
   template <class Real>
   TALUS_INLINE static Real lost(const Touch<Real>& touch, const ContactParameters<Real>& p,
-                                const Quad<Real>& memory) noexcept {
-    return Loading::work_share * (1.0 - p.normal.z) * Loading::force(begun(touch, memory), p, memory.w) *
-           memory.w;
+                                const Quad<Real>* memory) noexcept {
+    return Loading::work_share * (1.0 - p.normal.z) * Loading::force(begun(touch, *memory), p, memory->w) *
+           memory->w;
   }
 
  private:

@@ -55,7 +55,8 @@ struct ContactLaw {
                                                  const ContactParameters<Real>& parameters, double step,
                                                  Memory<Real>& memory, ContactLoss<Real>& loss) noexcept {
     const Real lost_before = lost(touch, parameters, memory);
-    const NormalForce<Real> normal = normal_force(touch, parameters, memory);
+    const NormalForce<Real> normal =
+        NormalTerm::template force<Real>(touch, parameters, normal_memory(memory));
     ContactLoad<Real> load{normal.total * touch.normal, {}, normal.stiffness};
     Triple<Real> tangential{};
     if constexpr (has_friction) {
@@ -95,29 +96,20 @@ struct ContactLaw {
   }
 
  private:
+  /// nullptr: the law remembers nothing.
   template <class Real>
-  TALUS_INLINE static NormalForce<Real> normal_force(const Touch<Real>& touch,
-                                                     const ContactParameters<Real>& parameters,
-                                                     Memory<Real>& memory) noexcept {
+  TALUS_INLINE static Quad<Real>* normal_memory(Memory<Real>& memory) noexcept {
     if constexpr (NormalTerm::memory_rows > 0)
-      return NormalTerm::template force<Real>(touch, parameters, memory[normal_row]);
+      return &memory[normal_row];
     else
-      return NormalTerm::template force<Real>(touch, parameters);
-  }
-  template <class Real>
-  TALUS_INLINE static Real normal_energy(const Touch<Real>& touch, const ContactParameters<Real>& parameters,
-                                         const Memory<Real>& memory) noexcept {
-    if constexpr (NormalTerm::memory_rows > 0)
-      return NormalTerm::template energy<Real>(touch, parameters, memory[normal_row]);
-    else
-      return NormalTerm::template energy<Real>(touch, parameters);
+      return nullptr;
   }
   /// J; by a normal law that remembers, since the contact began.
   template <class Real>
   TALUS_INLINE static Real lost(const Touch<Real>& touch, const ContactParameters<Real>& parameters,
-                                const Memory<Real>& memory) noexcept {
+                                Memory<Real>& memory) noexcept {
     if constexpr (has_ledger && NormalTerm::memory_rows > 0)
-      return NormalTerm::template lost<Real>(touch, parameters, memory[normal_row]);
+      return NormalTerm::template lost<Real>(touch, parameters, normal_memory(memory));
     else
       return Real{};
   }
@@ -145,7 +137,7 @@ struct ContactLaw {
       energies.z = rolling_power;
     }
     forces = quad(tangential, damping_force);
-    energies.x = normal_energy(touch, parameters, memory);
+    energies.x = NormalTerm::template energy<Real>(touch, parameters, normal_memory(memory));
     energies.y = held;
     return loss;
   }

@@ -5,22 +5,19 @@
 /// Normal laws. Each has energy, force and stiffness side by side.
 namespace talus::dem {
 
-/// The normal force law's contract: see Hertz. A law that remembers (memory_rows = 1: see Hysteretic) moves its
-/// memory on in force(); `lost` is what it has taken out of the motion since the contact began, J. When the contact
-/// is seen from the partner x, y and z turn their signs, w does not.
+/// The normal force law's contract: see Hertz. A law that remembers (memory_rows = 1: see Hysteretic) moves its memory on
+/// in force(), and says in lost() what it has taken out of the motion since the contact began, J; the others are given no
+/// memory. When the contact is seen from the partner x, y and z of the memory turn their signs, w does not.
 template <class Law>
-concept NormalLaw = (Law::memory_rows == 0 &&
-                     requires(const Touch<double>& touch, const ContactParameters<double>& p) {
-                       { Law::template force<double>(touch, p) } -> std::same_as<NormalForce<double>>;
-                       { Law::template energy<double>(touch, p) } -> std::same_as<double>;
-                     }) ||
-                    (Law::memory_rows == 1 &&
-                     requires(const Touch<double>& touch, const ContactParameters<double>& p,
-                              Quad<double>& memory) {
-                       { Law::template force<double>(touch, p, memory) } -> std::same_as<NormalForce<double>>;
-                       { Law::template energy<double>(touch, p, memory) } -> std::same_as<double>;
-                       { Law::template lost<double>(touch, p, memory) } -> std::same_as<double>;
-                     });
+concept NormalLaw = requires(const Touch<double>& touch, const ContactParameters<double>& p,
+                             Quad<double>* memory) {
+  { Law::template force<double>(touch, p, memory) } -> std::same_as<NormalForce<double>>;
+  { Law::template energy<double>(touch, p, memory) } -> std::same_as<double>;
+}
+&&(Law::memory_rows == 0 ||
+   requires(const Touch<double>& touch, const ContactParameters<double>& p, const Quad<double>* memory) {
+     { Law::template lost<double>(touch, p, memory) } -> std::same_as<double>;
+   });
 
 /// Hertz spring with the dashpot of constant restitution [Hertz 1882; Tsuji, Tanaka, Ishida, Powder Technol.
 /// 71 (1992) 239, eq. 8-9 for the form of the dashpot; Thornton, Cummins, Cleary, Powder Technol. 233 (2013)
@@ -44,8 +41,8 @@ struct Hertz {
   static constexpr bool spreads_over_area = false;
 
   template <class Real>
-  TALUS_INLINE static NormalForce<Real> force(const Touch<Real>& touch,
-                                              const ContactParameters<Real>& p) noexcept {
+  TALUS_INLINE static NormalForce<Real> force(const Touch<Real>& touch, const ContactParameters<Real>& p,
+                                              const Quad<Real>* = nullptr) noexcept {
     const Real zero{};
     const Real d = larger(touch.overlap, zero);
     const Real a = square_root(touch.reduced_radius * d);
@@ -57,7 +54,8 @@ struct Hertz {
   }
 
   template <class Real>
-  TALUS_INLINE static Real energy(const Touch<Real>& touch, const ContactParameters<Real>& p) noexcept {
+  TALUS_INLINE static Real energy(const Touch<Real>& touch, const ContactParameters<Real>& p,
+                                  const Quad<Real>* = nullptr) noexcept {
     const Real d = larger(touch.overlap, Real{});
     return (8.0 / 15.0) * p.normal.x * square_root(touch.reduced_radius * d) * d * d;
   }
@@ -79,8 +77,8 @@ struct LinearSpring {
   static constexpr bool spreads_over_area = false;
 
   template <class Real>
-  TALUS_INLINE static NormalForce<Real> force(const Touch<Real>& touch,
-                                              const ContactParameters<Real>& p) noexcept {
+  TALUS_INLINE static NormalForce<Real> force(const Touch<Real>& touch, const ContactParameters<Real>& p,
+                                              const Quad<Real>* = nullptr) noexcept {
     const Real zero{};
     const Real d = larger(touch.overlap, zero);
     const Real k = d > zero ? p.normal.x : zero, kt = d > zero ? p.normal.y : zero;
@@ -91,7 +89,8 @@ struct LinearSpring {
   }
 
   template <class Real>
-  TALUS_INLINE static Real energy(const Touch<Real>& touch, const ContactParameters<Real>& p) noexcept {
+  TALUS_INLINE static Real energy(const Touch<Real>& touch, const ContactParameters<Real>& p,
+                                  const Quad<Real>* = nullptr) noexcept {
     const Real d = larger(touch.overlap, Real{});
     return 0.5 * p.normal.x * d * d;
   }

@@ -104,8 +104,21 @@ class Cover {
   std::vector<std::int32_t> at_;  ///< the candidate at each point of the grid
 };
 
-/// m; from the spheres to the node that is furthest from them.
-double largest_gap(const std::vector<Ball>& balls, const mesh::Surface& surface) {
+PointGrid grid_for(const mesh::Surface& surface, double deviation) {
+  const PointGrid grid = grid_over(surface, 0.5 * deviation);
+  constexpr double most_points = 4e7;
+  if (grid.points() > most_points)
+    throw core::ConfigError(fmt::format(
+        "filling the rock to a deviation of {:.4g} m takes {:.2g} grid points of half that distance, but "
+        "{:.0g} are "
+        "the most: the deviation must be about {:.2g} m at least",
+        deviation, grid.points(), most_points, deviation * std::cbrt(grid.points() / most_points)));
+  return grid;
+}
+
+}  // namespace
+
+double largest_gap(std::span<const Ball> balls, const mesh::Surface& surface) {
   double largest = 0;
   std::size_t last = 0;  // neighbouring nodes have the same nearest sphere most of the time
   for (mesh::Index i = 0; i < surface.node_count(); ++i) {
@@ -120,20 +133,6 @@ double largest_gap(const std::vector<Ball>& balls, const mesh::Surface& surface)
   }
   return largest;
 }
-
-PointGrid grid_for(const mesh::Surface& surface, double deviation) {
-  const PointGrid grid = grid_over(surface, 0.5 * deviation);
-  constexpr double most_points = 4e7;
-  if (grid.points() > most_points)
-    throw core::ConfigError(fmt::format(
-        "filling the rock to a deviation of {:.4g} m takes {:.2g} grid points of half that distance, but "
-        "{:.0g} are "
-        "the most: the deviation must be about {:.2g} m at least",
-        deviation, grid.points(), most_points, deviation * std::cbrt(grid.points() / most_points)));
-  return grid;
-}
-
-}  // namespace
 
 SphereFilling fill_with_spheres(const mesh::Surface& surface, const FillingGoal& goal) {
   const PointGrid grid = grid_for(surface, goal.deviation);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "dem_solver/rocks/ball_union.hpp"
@@ -12,6 +13,9 @@ struct SphereFilling {
   std::vector<Ball> balls;  ///< inside the surface, largest first
   double deviation = 0;     ///< m; the largest distance of a node of the surface from the spheres
 };
+
+/// m; from the balls to the surface's node that is furthest from them.
+double largest_gap(std::span<const Ball> balls, const mesh::Surface& surface);
 
 struct FillingGoal {
   double deviation = 0;             ///< m; wanted

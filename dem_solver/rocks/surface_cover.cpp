@@ -10,6 +10,7 @@
 #include <unordered_map>
 
 #include "core/errors.hpp"
+#include "dem_solver/rocks/sphere_filling.hpp"
 #include "dem_solver/rocks/surface_nodes.hpp"
 #include "dem_solver/rocks/triangle_tree.hpp"
 
@@ -112,20 +113,6 @@ Ball inscribed(const TriangleTree& tree, const Piece& piece, double largest) {
   // Less than what touches another face beside an edge: it stands for one.
   constexpr double clear = 0.75;
   return {centre(clear * low), clear * low};
-}
-
-double largest_gap(std::span<const Ball> balls, const mesh::Surface& surface) {
-  double largest = 0;
-  for (mesh::Index i = 0; i < surface.node_count(); ++i) {
-    const core::Vector3 at = node(surface, i);
-    double gap = std::numeric_limits<double>::infinity();
-    for (const Ball& ball : balls) {
-      gap = std::min(gap, (at - ball.centre).norm() - ball.radius);
-      if (gap <= largest) break;
-    }
-    largest = std::max(largest, gap);
-  }
-  return largest;
 }
 
 }  // namespace

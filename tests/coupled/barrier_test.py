@@ -137,6 +137,12 @@ class FromASheet(unittest.TestCase):
                 self.assertIn(words, done.stderr)
                 self.assertTrue(scene.exists())
 
+    def test_a_title_with_quotes_stays_a_title(self):
+        title = 'the "wet" one: \\ 5'
+        done, scene = barrier(SHEET.replace("title: Barrier D1000, MEL", f"title: '{title}'"))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(Run(scene, "time: {end: 1 ms}\noutput: {every: 1 ms, fields_every: ~}\n").summary["title"], title)
+
     def test_a_scene_that_is_there_is_kept(self):
         _, scene = barrier(SHEET)
         scene.write_text("mine")

@@ -110,13 +110,13 @@ TEMPLATE_TEST_CASE(
       overlap += way;
       Touch<double> touch = touch_with(overlap);
       touch.area = 0.01;
-      const double f = TestType::template force<double>(touch, p, memory).elastic,
+      const double f = TestType::template force<double>(touch, p, &memory).elastic,
                    work = 0.5 * (last + f) * way;
       (way > 0 ? given : taken) += std::abs(work);
       last = f;
       if (overlap > 0)
-        REQUIRE(given - taken == Approx(TestType::template energy<double>(touch, p, memory) +
-                                        TestType::template lost<double>(touch, p, memory))
+        REQUIRE(given - taken == Approx(TestType::template energy<double>(touch, p, &memory) +
+                                        TestType::template lost<double>(touch, p, &memory))
                                      .epsilon(1e-3)
                                      .margin(1e-9));
     }
@@ -125,8 +125,8 @@ TEMPLATE_TEST_CASE(
   move_to(deepest / 2 * (1 - 0.5 * e * e));  // half of the way back: nothing more is lost
   move_to(deepest);
   move_to(0);
-  const double work =
-      TestType::template lost<double>(touch_with(deepest), p, {0.01, 0, 0, deepest}) / (1 - e * e);
+  const Quad<double> deep{0.01, 0, 0, deepest};
+  const double work = TestType::template lost<double>(touch_with(deepest), p, &deep) / (1 - e * e);
   CHECK(given - taken == Approx((1 - e * e) * work).epsilon(1e-3));
   CHECK(memory.w == 0);  // forgotten where the contact ends
 }

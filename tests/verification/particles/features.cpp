@@ -40,7 +40,8 @@ mesh::Surface bowl(double radius, int rings, int around) {
 double worst_energy_error(ParticleModel model, double seconds) {
   model.law.ledger = true;
   ParticleSolver solver(std::move(model));
-  const double start = solver.ledger().balance(), kinetic = 0.5 * solver.spheres().velocity[0].w * 4;
+  const double start = solver.ledger().balance(), speed = 2,  // m/s; of the start
+      kinetic = 0.5 * solver.spheres().velocity[0].w * speed * speed;
   double worst = 0;
   while (solver.time() < seconds) {
     for (int n = 0; n < 50; ++n) solver.step();
@@ -62,8 +63,12 @@ TEST_CASE("A ball keeps its energy in bowls of facets, from few large to many sm
   INFO(model.boundary.features().size() << " facets");
   const double error = worst_energy_error(model, 1.0);
   model.contact_rule = ContactRule::tangent_plane;
-  INFO("by the rule of tangent planes " << worst_energy_error(model, 1.0));
+  const double by_tangent_planes = worst_energy_error(model, 1.0);
+  INFO("local minima " << error << ", tangent planes " << by_tangent_planes);
+  // One contact within 1e-3 of the smooth bowl's energy; the other rule loses it by drops of whole overlaps, but in the coarsest
+  // bowl, where no second facet is reached.
   CHECK(error < 1e-3);
+  if (rings > 2) CHECK(by_tangent_planes > 0.05);
 }
 
 TEST_CASE("A funnel of N facets holds a ball with N springs") {
