@@ -39,7 +39,8 @@ struct FeatureSaddle {
 /// An accepted contact of a sphere with the boundary.
 struct BoundaryContact {
   Row force;        ///< N; on the sphere at the last evaluation
-  Row normal;       ///< unit vector to the sphere's centre; w: m, distance of the feature from it
+  Row normal;       ///< unit vector to the side that the sphere is on; w: m, distance of its centre to that
+                    ///< side, negative where it was pressed through a face
   Weights weights;  ///< of the feature's nodes at the contact point
   Index feature = -1;
   Index part = -1;
