@@ -186,16 +186,25 @@ std::vector<StructuralEffect> Structure::effects(const StructureScene& scene) co
     return effects.emplace_back(effect_at(effect, std::string("structure.") + key, present));
   };
   for (const auto& [name, part] : scene.parts) add_effects_of_part(effects, name, part.element);
-  const auto& damping = scene.damping;
-  add("gravity on the structure", "gravity", scene.gravity.has_value()).ledger_line = "structure.gravity_J";
-  add("mass-proportional damping", "damping.mass", damping && damping->mass > 0).ledger_line =
+  const auto in_a_part = [&](const auto& has) {
+    return std::ranges::any_of(scene.parts, [&](const auto& part) { return has(part.second); });
+  };
+  const auto damped = [&](double DampingScene::*term) {
+    const auto has = [&](const auto& where) { return where.damping && (*where.damping).*term > 0; };
+    return has(scene) || in_a_part(has);
+  };
+  add("gravity on the structure", "gravity",
+      scene.gravity || in_a_part([](const PartScene& part) { return part.gravity.has_value(); }))
+      .ledger_line = "structure.gravity_J";
+  add("mass-proportional damping", "damping.mass", damped(&DampingScene::mass)).ledger_line =
       "structure.bulk_damping_J";
-  add("stiffness-proportional damping", "damping.stiffness", damping && damping->stiffness > 0).ledger_line =
+  add("stiffness-proportional damping", "damping.stiffness", damped(&DampingScene::stiffness)).ledger_line =
       "structure.bulk_damping_J";
   add("nodal loads", "loads", !scene.loads.empty());
   add("point masses", "point_masses", !scene.point_masses.empty());
   add("welded parts", "weld", scene.weld.has_value());
   add("nodes that slide along ropes", "slides", !scene.slides.empty());
+  add("obstacles that stop nodes", "obstacles", !scene.obstacles.empty());
   add("start at rest under loads", "start", scene.start.has_value());
   add("mass scaling", "mass_scaling", scene.mass_scaling.has_value());
   if (scene.mass_scaling) effects.back().reason += "; " + description(added_mass_);

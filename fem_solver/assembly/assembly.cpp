@@ -41,6 +41,7 @@ Assembly::Assembly(const Model& model) : model_(model) {
     slots +=
         static_cast<std::size_t>(std::visit([](const auto& batch) { return batch.slots(); }, part.elements));
   }
+  slot_begin_.push_back(slots);
   slots_.resize(3 * slots);
   next_memory_ = initial_memory(model);
   memory_begin_.push_back(0);
@@ -62,7 +63,7 @@ Assembly::Assembly(const Model& model) : model_(model) {
 }
 
 std::span<double> Assembly::slots_of(std::size_t part) noexcept {
-  return std::span(slots_).subspan(3 * slot_begin_[part]);
+  return std::span(slots_).subspan(3 * slot_begin_[part], 3 * (slot_begin_[part + 1] - slot_begin_[part]));
 }
 
 /// compute(batch, its configuration, what it remembers next, its slots, range of elements) for every part.
@@ -102,6 +103,21 @@ void Assembly::stiffness_product(const Configuration& at, std::span<const double
                 [&](const auto& batch, const Configuration& own, std::span<double>, std::span<double> slots,
                     core::Block elements) { batch.stiffness_product(own, direction, slots, elements); });
   gather(1, product);
+}
+
+void Assembly::damping_force(const Configuration& at, std::span<const double> velocity,
+                             std::span<double> force) noexcept {
+  for_each_part(model_, at, [&](std::size_t p, const auto& batch, const Configuration& own) {
+    const auto slots = slots_of(p);
+    const double seconds = model_.parts[p].stiffness_damping;
+    if (seconds > 0)
+      core::parallel_blocks(batch.size(), [&](core::Block elements, std::int64_t) {
+        batch.damping_product(own, velocity, slots, elements);
+      });
+    core::parallel_for(static_cast<std::int64_t>(slots.size()),
+                       [&](std::int64_t i) { slots[i] = seconds > 0 ? seconds * slots[i] : 0; });
+  });
+  gather(1, force);
 }
 
 void Assembly::stiffest_product(const Configuration& at, std::span<const double> direction,

@@ -28,6 +28,9 @@ class Assembly {
   /// product = (d2U/du2) direction at every node.
   void stiffness_product(const Configuration& at, std::span<const double> direction,
                          std::span<double> product) noexcept;
+  /// What resists strain rates: the stiffness damping of each part times its damping_product(), at every node (N).
+  void damping_force(const Configuration& at, std::span<const double> velocity,
+                     std::span<double> force) noexcept;
   /// The same with everything taut that can be, for step limits.
   void stiffest_product(const Configuration& at, std::span<const double> direction,
                         std::span<double> product) noexcept;
@@ -53,7 +56,7 @@ class Assembly {
   void gather(double factor, std::span<double> sums) const noexcept;
 
   const Model& model_;
-  std::vector<std::size_t> slot_begin_;    ///< of each part
+  std::vector<std::size_t> slot_begin_;    ///< of each part, and the end
   std::vector<double> slots_;              ///< 3 a slot
   std::vector<std::size_t> memory_begin_;  ///< of each part, and the end
   std::vector<double> next_memory_;

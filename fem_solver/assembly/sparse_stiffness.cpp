@@ -73,16 +73,37 @@ SparseStiffness::SparseStiffness(const Model& model, const Equations& equations)
   for (Index k = 0; k < equations.count(); ++k) diagonal_place_.push_back(place_of(k, k));
 }
 
-const SparseMatrix& SparseStiffness::assemble(const Configuration& at, double factor,
-                                              std::span<const double> diagonal) {
+/// @param for_each_block calls what it is given with (row, column, block, factor)
+template <class ForEachBlock>
+void SparseStiffness::add(const ForEachBlock& for_each_block) {
   double* values = matrix_.valuePtr();
-  std::fill(values, values + matrix_.nonZeros(), 0.0);
   std::size_t next = 0;
-  for_each_block(model_, at, [&](Index row, Index column, const Matrix3& block) {
+  for_each_block([&](Index row, Index column, const Matrix3& block, double factor) {
     for_each_number(row, column, block, [&](std::size_t i, std::size_t j, double number) {
       const Index place = place_[next++];
       if (place >= 0) values[place] += (i == j ? factor : 0.5 * factor) * number;
     });
+  });
+}
+
+const SparseMatrix& SparseStiffness::add_damping(const Configuration& at, double factor) {
+  add([&](const auto& take) {
+    for_each_part(model_, at, [&](std::size_t p, const auto& batch, const Configuration& own) {
+      const double own_factor = factor * model_.parts[p].stiffness_damping;
+      batch.damping_matrix(
+          own, [&](Index row, Index column, const Matrix3& block) { take(row, column, block, own_factor); });
+    });
+  });
+  return matrix_;
+}
+
+const SparseMatrix& SparseStiffness::assemble(const Configuration& at, double factor,
+                                              std::span<const double> diagonal) {
+  double* values = matrix_.valuePtr();
+  std::fill(values, values + matrix_.nonZeros(), 0.0);
+  add([&](const auto& take) {
+    for_each_block(model_, at,
+                   [&](Index row, Index column, const Matrix3& block) { take(row, column, block, factor); });
   });
   for (Index k = 0; k < equations_.count(); ++k)
     values[diagonal_place_[static_cast<std::size_t>(k)]] +=

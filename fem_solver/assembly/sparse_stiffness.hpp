@@ -38,8 +38,13 @@ class SparseStiffness {
 
   /// factor * d2U/du2 + diagonal. @param diagonal one a direction, 3 a node
   const SparseMatrix& assemble(const Configuration& at, double factor, std::span<const double> diagonal);
+  /// The last matrix plus factor * what resists strain rates, by each part's stiffness damping.
+  const SparseMatrix& add_damping(const Configuration& at, double factor);
 
  private:
+  template <class ForEachBlock>
+  void add(const ForEachBlock& for_each_block);
+
   const Model& model_;
   const Equations& equations_;
   SparseMatrix matrix_;

@@ -49,6 +49,9 @@ class PenaltySlide {
   Matrix9 stiffness() const noexcept;
   /// The same times changes of the nodes: changes of the forces.
   Nodes stiffness_product(const Nodes& changes) const noexcept;
+  /// The part of it that resists a change of the gap, as a rate's force does.
+  Nodes material_product(const Nodes& changes) const noexcept;
+  Matrix9 material_stiffness() const noexcept;
 
  private:
   bool between_ends() const noexcept { return fraction_ > 0 && fraction_ < 1; }

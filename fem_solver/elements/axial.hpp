@@ -100,6 +100,18 @@ struct AxialElement {
                    direction);
   }
 
+  /// The part of it that resists a change of length, as a rate's force does: none where a cable is slack. It turns
+  /// with the element, so no rigid motion meets it.
+  Vector3 material_product(const Vector3& stretch, const Vector3& direction) const noexcept {
+    const double trial = trial_stress(strain(stretch));
+    return product(Compression::modulus(trial, section.youngs_modulus), 0, stretch, direction);
+  }
+  Matrix3 material_stiffness(const Vector3& stretch) const noexcept {
+    const Vector3 d = reference + stretch;
+    const double E = Compression::modulus(trial_stress(strain(stretch)), section.youngs_modulus);
+    return (section.area * inverse_length * inverse_length * inverse_length * E) * d * d.transpose();
+  }
+
   /// Axial force N = A S l/L, positive in tension (N).
   double axial_force(const Vector3& stretch) const noexcept {
     const double S = Compression::stress(trial_stress(strain(stretch)));

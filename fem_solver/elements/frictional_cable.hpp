@@ -76,6 +76,31 @@ class FrictionalCable {
     }
   }
 
+  /// What resists a change of each segment's length with the material held, as a rate's force does: slack ones
+  /// nothing. N/m along the segment.
+  double material_slope(const RopeSegment& segment, double material) const noexcept {
+    return properties_.law.tension_slope(segment.length / material) / material;
+  }
+  template <class Chords, class ChordChanges, class Sink>
+  void material_product(const Chords& chords, const ChordChanges& changes, std::span<const double> material,
+                        const Sink& sink) const noexcept {
+    for (std::size_t i = 0; i < chords.size(); ++i) {
+      const RopeSegment segment(chords(i), properties_.gap);
+      sink(i, Vector3(material_slope(segment, material[i]) * segment.direction.dot(changes(i)) *
+                      segment.direction));
+    }
+  }
+  /// Every pair once, in the order of `stiffness`.
+  template <class Chords, class Sink>
+  void material_stiffness(const Chords& chords, std::span<const double> material, const Sink& sink) const {
+    for (std::size_t j = 0; j < chords.size(); ++j) {
+      const RopeSegment segment(chords(j), properties_.gap);
+      const Matrix3 own =
+          material_slope(segment, material[j]) * segment.direction * segment.direction.transpose();
+      for (std::size_t i = 0; i < chords.size(); ++i) sink(i, j, i == j ? own : Matrix3(Matrix3::Zero()));
+    }
+  }
+
   /// sink(i, j, block): derivative of segment i's settled force with respect to chord j. Every pair once;
   /// allocates. @param old_material at the step's start (m)
   template <class Chords, class Sink>

@@ -83,6 +83,14 @@ struct MembraneTriangle {
     return {combine(gradient[0], t1, t2), combine(gradient[1], t1, t2)};
   }
 
+  /// Rate of the strain.
+  PlaneStrain<Real> strain_rate(const Deformation& deformation,
+                                const std::array<Triple<Real>, 2>& velocities) const noexcept {
+    const Triple<Real> h1 = displacement_gradient(velocities, 0), h2 = displacement_gradient(velocities, 1);
+    const auto& [a1, a2] = deformation.tangents;
+    return {dot(a1, h1), dot(a2, h2), dot(a1, h2) + dot(a2, h1)};
+  }
+
   /// Changes of `force` along changes of the displacements, without forming K.
   std::array<Triple<Real>, 2> force_change(const Deformation& deformation, const PlaneStress<Real>& s,
                                            const PlaneMatrix& moduli,

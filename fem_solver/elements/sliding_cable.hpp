@@ -58,6 +58,20 @@ struct SlidingCable {
     const double q = length(chords) / reference_length;
     product(chords, changes, {law.tension(q), law.tension_slope(q)}, sink);
   }
+  /// The part of it that resists a change of the rope's length, as a rate's force does.
+  template <class Chords, class Changes, class Sink>
+  void material_product(const Chords& chords, const Changes& changes, const Sink& sink) const noexcept {
+    product(chords, changes, {0, law.tension_slope(length(chords) / reference_length)}, sink);
+  }
+  template <class Chords, class Sink>
+  void material_stiffness(const Chords& chords, const Sink& sink) const {
+    const double slope = law.tension_slope(length(chords) / reference_length) / reference_length;
+    for (std::size_t i = 0; i < chords.size(); ++i)
+      for (std::size_t j = 0; j < chords.size(); ++j)
+        sink(i, j,
+             Matrix3(slope * RopeSegment(chords(i), gap).direction *
+                     RopeSegment(chords(j), gap).direction.transpose()));
+  }
   /// The same as if a slack rope were taut: what it may snap to, for step limits.
   template <class Chords, class Changes, class Sink>
   void taut_stiffness_product(const Chords& chords, const Changes& changes, const Sink& sink) const noexcept {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <ranges>
 #include <type_traits>
 
 #include "core/errors.hpp"
@@ -18,15 +19,18 @@ struct MassDampingTerm {};
 }  // namespace
 
 ExplicitSolver::ExplicitSolver(const Model& model, Assembly& assembly, double step, const State& start)
-    : Integrator(model, start), model_(model), assembly_(assembly), longest_step_(step) {
+    : Integrator(model, start), model_(model), assembly_(assembly), longest_step_(step), slides_(model) {
   const std::size_t values = model.reference.size();
   static_cast<State&>(state_) = start;
   state_.force.assign(values, 0);
   state_.reactions.assign(reaction_count(model), 0);
   for (const double m : model.node_masses) inverse_mass_.insert(inverse_mass_.end(), 3, m > 0 ? 1 / m : 0);
-  if (model.damping.mass > 0)
-    for (const double m : model.node_masses) mass_.insert(mass_.end(), 3, m);
-  if (model.damping.stiffness > 0) damping_force_.resize(values);
+  if (!model.damping_rates.empty())
+    for (std::size_t node = 0; node < model.node_masses.size(); ++node) {
+      mass_.insert(mass_.end(), 3, model.node_masses[node]);
+      damping_rate_.insert(damping_rate_.end(), 3, model.damping_rates[node]);
+    }
+  if (largest_stiffness_damping(model) > 0) damping_force_.resize(values);
   sum_.reserve(static_cast<std::int64_t>(values));
   for (const HeldDirection& h : held_directions(model))
     if (h.displacement != 0)
@@ -34,7 +38,7 @@ ExplicitSolver::ExplicitSolver(const Model& model, Assembly& assembly, double st
     else
       fixed_.push_back({static_cast<std::uint32_t>(h.direction), static_cast<std::uint32_t>(h.reaction)});
   fixed_.shrink_to_fit();
-  for (const auto& slide : model.constrained_slides) slides_.emplace_back(model, slide.line);
+  if (slides_.exists()) state_.slides = slides_.find(start.displacement);
 }
 
 void ExplicitSolver::advance(double time, double length) {
@@ -79,6 +83,10 @@ void ExplicitSolver::archive(core::StateArchive& archive) {
   fem::archive(archive, state_);
   archive.values("force", state_.force);
   archive.values("reactions", state_.reactions);
+  if (slides_.exists()) {
+    archive.values("slider_segments", state_.slides.segments);
+    archive.values("slider_moves", state_.slides.moves);
+  }
   archive.count("steps", state_.steps);
   auto rest = static_cast<std::int64_t>(state_.rest);
   archive.count("rest", rest);
@@ -104,10 +112,10 @@ void ExplicitSolver::step(double time, double step) {
   assembly_.lap(StepStage::other_forces);
   arrive(time);
   assembly_.lap(StepStage::energy);
-  if (!slides_.empty()) velocity_before_ = state_.velocity;
+  if (slides_.exists()) velocity_before_ = state_.velocity;
   const double activity = advance_free(step);
   assembly_.lap(StepStage::motion);
-  if (!slides_.empty()) {
+  if (slides_.exists()) {
     hold_slides(time, step);
     damp_sliding_nodes(step);
   }
@@ -142,7 +150,8 @@ void ExplicitSolver::evaluate_own_forces(double time, std::span<double> force) n
     std::ranges::copy(element_force_, force.begin());
   else
     assembly_.internal_force(state_.configuration(), force);
-  if (model_.damping.stiffness > 0) subtract_stiffness_damping(force);
+  if (slides_.exists()) book_moves(force);
+  if (!damping_force_.empty()) subtract_stiffness_damping(force);
   add_external_force(model_, {}, {.time = time}, force);
 }
 
@@ -152,11 +161,13 @@ std::span<const double> ExplicitSolver::free_velocity(double time, double step) 
   prepare();
   free_velocity_.resize(state_.velocity.size());
   evaluate_own_forces(time, free_velocity_);
-  const double kick = 0.5 * (state_.previous_step + step), half_damping = 0.5 * model_.damping.mass * kick;
-  for (std::size_t i = 0; i < free_velocity_.size(); ++i)
+  const double kick = 0.5 * (state_.previous_step + step);
+  for (std::size_t i = 0; i < free_velocity_.size(); ++i) {
+    const double half_damping = damping_rate_.empty() ? 0 : 0.5 * damping_rate_[i] * kick;
     free_velocity_[i] =
         ((1 - half_damping) * state_.velocity[i] + kick * inverse_mass_[i] * free_velocity_[i]) /
         (1 + half_damping);
+  }
   for (const Fixed& fixed : fixed_) free_velocity_[fixed.direction] = 0;
   for (const HeldDirection& h : led_)
     free_velocity_[h.direction] =
@@ -166,16 +177,14 @@ std::span<const double> ExplicitSolver::free_velocity(double time, double step) 
 }
 
 void ExplicitSolver::subtract_stiffness_damping(std::span<double> force) noexcept {
-  assembly_.stiffness_product(state_.configuration(), state_.velocity, damping_force_);
-  core::parallel_for(static_cast<std::int64_t>(force.size()), [&](std::int64_t i) {
-    damping_force_[i] *= model_.damping.stiffness;
-    force[i] -= damping_force_[i];
-  });
+  assembly_.damping_force(state_.configuration(), state_.velocity, damping_force_);
+  core::parallel_for(static_cast<std::int64_t>(force.size()),
+                     [&](std::int64_t i) { force[i] -= damping_force_[i]; });
 }
 
 void ExplicitSolver::impose_supports(double time, double step) noexcept {
-  const double half_damping = 0.5 * model_.damping.mass * state_.kick;
   const auto hold = [&](std::size_t i, std::size_t reaction, double mass, double velocity_after) {
+    const double half_damping = half_damping_of(i / 3);
     const double momentum_change =
         (1 + half_damping) * velocity_after - (1 - half_damping) * state_.velocity[i];
     const double needed = mass * momentum_change / state_.kick;
@@ -198,13 +207,20 @@ double ExplicitSolver::advance_values(const Leap& leap, core::Block values) noex
   const double* __restrict force = state_.force.data();
   const double* __restrict inverse_mass = inverse_mass_.data();
   const double* __restrict mass = mass_.data();
+  const double* __restrict rate = damping_rate_.data();
   const double half_after = 0.5 * leap.step;
   const auto advance = [&](std::int64_t i) {
     const double before = velocity[i];
-    const double after = (damped ? leap.keep * before : before) + leap.gain * inverse_mass[i] * force[i];
+    double keep = 1, gain = leap.kick;
+    if constexpr (damped) {
+      const double half_damping = 0.5 * rate[i] * leap.kick;
+      keep = (1 - half_damping) / (1 + half_damping);
+      gain = leap.kick / (1 + half_damping);
+    }
+    const double after = (damped ? keep * before : before) + gain * inverse_mass[i] * force[i];
     velocity[i] = after;
     displacement[i] += leap.step * after;
-    return damped ? mass[i] * ((before + after) * (leap.half_before * before + half_after * after))
+    return damped ? rate[i] * mass[i] * ((before + after) * (leap.half_before * before + half_after * after))
                   : after * after;
   };
   std::array<double, width> sums{};
@@ -220,15 +236,11 @@ double ExplicitSolver::advance_values(const Leap& leap, core::Block values) noex
 template <class MassDamping>
 double ExplicitSolver::advance_nodes(double step) noexcept {
   constexpr bool damped = std::is_same_v<MassDamping, MassDampingTerm>;
-  const double half_damping = 0.5 * model_.damping.mass * state_.kick;
-  const Leap leap{.keep = (1 - half_damping) / (1 + half_damping),
-                  .gain = state_.kick / (1 + half_damping),
-                  .half_before = 0.5 * state_.previous_step,
-                  .step = step};
+  const Leap leap{.kick = state_.kick, .half_before = 0.5 * state_.previous_step, .step = step};
   const double sum = sum_.of_blocks(static_cast<std::int64_t>(state_.velocity.size()), 0.0,
                                     [&](core::Block values) { return advance_values<damped>(leap, values); });
   if constexpr (damped)
-    if (slides_.empty()) state_.damped += 0.5 * model_.damping.mass * sum;
+    if (!slides_.exists()) state_.damped += 0.5 * sum;
   return sum;
 }
 
@@ -243,34 +255,39 @@ void ExplicitSolver::damp_sliding_nodes(double step) noexcept {
     double joules = 0;
     for (auto i = static_cast<std::size_t>(values.begin); i < static_cast<std::size_t>(values.end); ++i) {
       const double before = velocity_before_[i], after = state_.velocity[i];
-      joules += mass_[i] * ((before + after) * (half_before * before + half_after * after));
+      joules +=
+          damping_rate_[i] * mass_[i] * ((before + after) * (half_before * before + half_after * after));
     }
     return joules;
   });
-  state_.damped += 0.5 * model_.damping.mass * sum;
+  state_.damped += 0.5 * sum;
 }
 
-// The energy that the constraints take is that of taking last step's offset back: they do no work on a motion
-// along the rope.
+// Constraint forces do no work on a motion along the rope; what is left is of the order of the step.
 void ExplicitSolver::hold_slides(double time, double step) {
-  const double factor = (1 + 0.5 * model_.damping.mass * state_.kick) / state_.kick;
   ExplicitState::Work& work = state_.works[by_slides];
-  work.done += work.pending;
-  work.pending = 0;
-  for (std::size_t k = 0; k < slides_.size(); ++k) {
-    const bool converged =
-        slides_[k].project({.length = step, .force_factor = factor},
-                           {state_.displacement, state_.velocity, state_.force, state_.reactions});
-    if (!converged)
-      throw core::NumericalError({.what = "the impulses that hold sliders on their rope do not converge",
-                                  .entity = "largest gap (m) of slide " + model_.constrained_slides[k].name,
-                                  .step = state_.steps,
-                                  .time = time,
-                                  .value = slides_[k].largest_violation(),
-                                  .last_output_time = last_output_time});
-    work.done += 0.5 * state_.previous_step * slides_[k].power(velocity_before_);
-    work.pending += 0.5 * step * slides_[k].power(state_.velocity);
+  const bool converged =
+      slides_.hold({.length = step, .kick = state_.kick},
+                   {state_.displacement, state_.velocity, state_.force, state_.reactions, state_.slides});
+  if (!converged) {
+    const auto worst = std::ranges::max(std::views::iota(std::size_t{0}, model_.constrained_slides.size()),
+                                        {}, [&](std::size_t k) { return slides_.largest_violation(k); });
+    throw core::NumericalError({.what = "the impulses that hold sliders on their ropes do not converge",
+                                .entity = "largest gap (m) of slide " + model_.constrained_slides[worst].name,
+                                .step = state_.steps,
+                                .time = time,
+                                .value = slides_.largest_violation(worst),
+                                .last_output_time = last_output_time});
   }
+  work.done += work.pending + 0.5 * state_.previous_step * slides_.power(velocity_before_);
+  work.pending = 0.5 * step * slides_.power(state_.velocity);
+}
+
+void ExplicitSolver::book_moves(std::span<const double> element_force) noexcept {
+  double work = slides_.work_of_moves(state_.slides, element_force);
+  if (model_.gravity_history.points.empty() && !model_.weight.empty())
+    work += slides_.work_of_moves(state_.slides, model_.weight);
+  state_.works[by_slides].done -= work;
 }
 
 void ExplicitSolver::report_blow_up(double time) const {

@@ -29,6 +29,7 @@ struct ExplicitState : State {
   double previous_step = 0;  ///< s; 0 before the first step
   double kick = 0;           ///< s; the last step's
   double damped = 0;         ///< J; by mass damping, the half step behind the last evaluation included
+  SlideState slides;
   /// Work of a force at an evaluation belongs half to the step before it and half to the step after it.
   struct Work {
     double done = 0;     ///< J; up to the last evaluation
@@ -49,9 +50,9 @@ struct ExplicitState : State {
 /// | symbol | variable  | meaning                                                                  | unit   |
 /// |--------|-----------|--------------------------------------------------------------------------|--------|
 /// | v      | velocity  | nodal velocity, half a step before the displacement's time               | m/s    |
-/// | F      | force     | external forces minus dU/du minus b K v(n-1/2)                           | N      |
+/// | F      | force     | external forces minus dU/du minus b D v(n-1/2), D: damping_product()     | N      |
 /// | m      | node mass |                                                                          | kg     |
-/// | a, b   | damping   | mass- and stiffness-proportional Rayleigh factors                        | 1/s, s |
+/// | a, b   |           | damping rate of the node, stiffness damping of the part                  | 1/s, s |
 /// | k      | kick      | from the middle of the last step to the middle of this one; before the   | s      |
 /// |        |           | first step dt_before = 0, which is the half-step start                   |        |
 ///
@@ -77,7 +78,7 @@ class ExplicitSolver final : public Integrator {
   double interface_work() const override {
     return state_.works[by_interface].done + state_.works[by_interface].pending;
   }
-  double slide_gap(std::size_t slide) const override { return slides_[slide].largest_violation(); }
+  double slide_gap(std::size_t slide) const override { return slides_.largest_violation(slide); }
   std::int64_t force_evaluations() const override { return force_evaluations_; }
   void save() override { saved_ = state_; }
   void archive(core::StateArchive& archive) override;
@@ -116,11 +117,14 @@ class ExplicitSolver final : public Integrator {
   void impose_supports(double time, double step) noexcept;
   /// A step of the leapfrog in numbers.
   struct Leap {
-    double keep = 1;         ///< of the velocity before
-    double gain = 0;         ///< s; times force over mass
+    double kick = 0;         ///< s
     double half_before = 0;  ///< s
     double step = 0;         ///< s
   };
+  /// Half of what mass damping takes of a velocity in a kick.
+  double half_damping_of(std::size_t node) const noexcept {
+    return damping_rate_.empty() ? 0 : 0.5 * damping_rate_[3 * node] * state_.kick;
+  }
   template <bool damped>
   double advance_values(const Leap& leap, core::Block values) noexcept;
   /// Sum of velocities squared, or what mass damping dissipates (J): finite as long as every velocity is.
@@ -128,6 +132,8 @@ class ExplicitSolver final : public Integrator {
   double advance_nodes(double step) noexcept;
   /// With the terms that the scene names.
   double advance_free(double step) noexcept;
+  /// Energy that moving sliders back has brought in: elements and weight work on the way, nothing else does.
+  void book_moves(std::span<const double> element_force) noexcept;
   /// What mass damping has taken where sliders were led: the velocities that count are those after it.
   void damp_sliding_nodes(double step) noexcept;
   /// Takes sliders back to their ropes after a free step.
@@ -162,11 +168,12 @@ class ExplicitSolver final : public Integrator {
   };
   std::vector<Fixed> fixed_;
   std::vector<HeldDirection> led_;       ///< the others
-  std::vector<SlideRun> slides_;         ///< of the model's constrained slides
+  SlideRun slides_;                      ///< of the model's constrained slides
   std::vector<double> velocity_before_;  ///< m/s; of the step in progress, where there are slides
   std::vector<double> inverse_mass_;     ///< 1/kg; of each direction, 0 for a node without mass
   std::vector<double> mass_;             ///< kg; of each direction, only where the scene names mass damping
-  std::vector<double> damping_force_;    ///< N; b K v, only where the scene names stiffness damping
+  std::vector<double> damping_rate_;     ///< 1/s; of each direction, likewise
+  std::vector<double> damping_force_;    ///< N; only where the scene names stiffness damping
   std::vector<double> free_velocity_;    ///< m/s; only where somebody asks for it
   std::vector<double> element_force_;    ///< N; of the elements at the present state, where prepared
   bool prepared_ = false;

@@ -32,10 +32,10 @@ ExplicitSolver::Powers ExplicitSolver::powers(double time) const noexcept {
   interface_.for_each([&](Index node, const auto& on_node) {
     power[by_interface] += on_node.dot(Vector3::Map(&state_.velocity[3 * node]));
   });
-  if (!model_.gravity_history.points.empty() && model_.gravity) {
-    const Vector3 gravity = model_.gravity_history.at(time) * *model_.gravity;
-    for (Index node = 0; node < model_.nodes(); ++node)
-      power[by_gravity] += model_.node_masses[node] * gravity.dot(Vector3::Map(&state_.velocity[3 * node]));
+  if (!model_.gravity_history.points.empty() && !model_.weight.empty()) {
+    const double factor = model_.gravity_history.at(time);
+    for (std::size_t i = 0; i < model_.weight.size(); ++i)
+      power[by_gravity] += factor * model_.weight[i] * state_.velocity[i];
   }
   for (std::size_t i = 0; i < damping_force_.size(); ++i)
     power[by_stiffness_damping] += damping_force_[i] * state_.velocity[i];
@@ -56,13 +56,14 @@ EnergyBalance ExplicitSolver::balance() {
   state_.kick = 0.5 * longest_step_;
   evaluate_forces(0);
   impose_supports(0, longest_step_);
-  if (!slides_.empty()) {  // their constraints' forces follow from a step that is not taken
+  if (slides_.exists()) {  // their constraints' forces follow from a step that is not taken
     velocity_before_ = state_.velocity;
     advance_free(longest_step_);
     hold_slides(0, longest_step_);
     state_.displacement = start.displacement;
     state_.velocity = start.velocity;
     state_.works = start.works;
+    state_.slides = start.slides;
   }
   const EnergyBalance balance = balance_at_evaluation();
   state_ = start;
@@ -77,11 +78,9 @@ EnergyBalance ExplicitSolver::balance_at_evaluation() const {
   balance.elastic = elastic_by_parts(model_, at);
   balance.dissipated = dissipated_by_parts(model_, at);
   balance.gravity = -state_.works[by_gravity].done;  // what changes has no potential
-  if (model_.gravity && model_.gravity_history.points.empty()) {
-    for (Index node = 0; node < model_.nodes(); ++node)
-      balance.gravity -=
-          model_.node_masses[node] * model_.gravity->dot(Vector3::Map(&displacement[3 * node]));
-  }
+  if (model_.gravity_history.points.empty())
+    for (std::size_t i = 0; i < model_.weight.size(); ++i)
+      balance.gravity -= model_.weight[i] * displacement[i];
   balance.bulk_damping += state_.damped + state_.works[by_stiffness_damping].done;
   balance.loads = state_.works[by_loads].done;
   balance.supports = state_.works[by_supports].done;
@@ -92,6 +91,7 @@ EnergyBalance ExplicitSolver::balance_at_evaluation() const {
 
 std::vector<double> ExplicitSolver::displacement_at_evaluation() const {
   std::vector<double> displacement = state_.displacement;
+  if (slides_.exists()) slides_.undo_moves(state_.slides, displacement);
   for (std::size_t i = 0; i < displacement.size(); ++i)
     displacement[i] -= state_.previous_step * state_.velocity[i];
   return displacement;
@@ -100,19 +100,19 @@ std::vector<double> ExplicitSolver::displacement_at_evaluation() const {
 // The velocity half a step before the evaluation follows from the one behind it and the force, so no step has
 // to store it. Before the first step the stored velocity is that at the start, half a kick away from both.
 void ExplicitSolver::add_kinetic(EnergyBalance& balance) const {
-  const double half_damping = 0.5 * model_.damping.mass * state_.kick;
   const bool at_start = state_.steps == 0;
   double twice_kinetic = 0, damped_behind = 0;
   for (std::size_t i = 0; i < state_.velocity.size(); ++i) {
     const double mass = model_.node_masses[i / 3], v = state_.velocity[i];
+    const double half_damping = half_damping_of(i / 3);
     const double change = state_.kick * inverse_mass_[i] * state_.force[i];
     const double after = at_start ? ((1 - half_damping) * v + change) / (1 + half_damping) : v;
     const double before = at_start ? 2 * v - after : ((1 + half_damping) * v - change) / (1 - half_damping);
     twice_kinetic += mass * before * after;
-    damped_behind += mass * 0.5 * (before + after) * after;
+    if (!damping_rate_.empty()) damped_behind += damping_rate_[i] * mass * 0.5 * (before + after) * after;
   }
   balance.kinetic = 0.5 * twice_kinetic;
-  if (!at_start) balance.bulk_damping = -0.5 * model_.damping.mass * state_.previous_step * damped_behind;
+  if (!at_start) balance.bulk_damping = -0.5 * state_.previous_step * damped_behind;
 }
 
 }  // namespace talus::fem

@@ -6,11 +6,10 @@ namespace talus::fem {
 
 void add_external_force(const Model& model, const InterfaceForce& interface, const LoadTime& when,
                         std::span<double> force) noexcept {
-  if (model.gravity) {
-    const Vector3 gravity = load_factor(model.gravity_history, when) * *model.gravity;
-    core::parallel_for(model.nodes(), [&](std::int64_t node) {
-      Vector3::Map(&force[3 * node]) += model.node_masses[node] * gravity;
-    });
+  if (!model.weight.empty()) {
+    const double factor = load_factor(model.gravity_history, when);
+    core::parallel_for(static_cast<std::int64_t>(force.size()),
+                       [&](std::int64_t i) { force[i] += factor * model.weight[i]; });
   }
   for (const auto& load : model.loads) {
     const Vector3 nodal = load_factor(load.history, when) * load.force;
@@ -22,12 +21,10 @@ void add_external_force(const Model& model, const InterfaceForce& interface, con
 void add_works(const Model& model, const InterfaceForce& interface, const LoadSpan& span,
                std::span<const double> change, ExternalWorks& works) noexcept {
   const auto move_of = [&](Index node) { return Vector3::Map(&change[3 * static_cast<std::size_t>(node)]); };
-  if (model.gravity) {
+  if (!model.weight.empty()) {
     const double factor = 0.5 * (load_factor(model.gravity_history, span.before) +
                                  load_factor(model.gravity_history, span.after));
-    const Vector3 gravity = factor * *model.gravity;
-    for (Index node = 0; node < model.nodes(); ++node)
-      works.gravity += model.node_masses[node] * gravity.dot(move_of(node));
+    for (std::size_t i = 0; i < change.size(); ++i) works.gravity += factor * model.weight[i] * change[i];
   }
   for (const auto& load : model.loads) {
     const double factor =

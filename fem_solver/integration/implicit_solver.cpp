@@ -39,7 +39,7 @@ ImplicitSolver::ImplicitSolver(const Model& model, Assembly& assembly, const Imp
   static_cast<State&>(state_) = start;
   state_.acceleration = state_.force = state_.interface_force = zero;
   state_.reactions.assign(reaction_count(model), 0.0);
-  mean_ = product_ = zero;
+  mean_ = product_ = mean_displacement_ = zero;
   const auto [least, most] = std::ranges::minmax(model.reference);
   extent_ = most - least;
 }
@@ -87,7 +87,7 @@ void ImplicitSolver::start(double time) {
   if (record_) record_->note_elements(time, state_.configuration(), assembly_.next_memory(), state_.record);
   add_external_force(model_, {}, {.time = time}, state_.force);
   std::vector<double> sum = state_.force;
-  add_damping(-1, state_.velocity, sum);
+  add_damping(-1, {state_.displacement, state_.velocity}, sum);
   state_.acceleration = newton_.accelerations({masses_of_directions(), sum}, state_.displacement);
   // What supports bear from the start on, so that their first work is booked whole.
   std::vector<double> needed(sum.size());
@@ -222,18 +222,19 @@ void ImplicitSolver::residual(const Step& step, std::span<const double> displace
     force_scale_ = std::max({force_scale_, std::abs(residual[i]), std::abs(inertia)});
     residual[i] = (1 - alpha_f_) * residual[i] + alpha_f_ * before_.force[i] - inertia;
     mean_[i] = (1 - alpha_f_) * state_.velocity[i] + alpha_f_ * before_.velocity[i];
+    mean_displacement_[i] = (1 - alpha_f_) * displacement[i] + alpha_f_ * before_.displacement[i];
   }
-  add_damping(-1, mean_, residual);
+  add_damping(-1, {mean_displacement_, mean_}, residual);
 }
 
-void ImplicitSolver::add_damping(double factor, std::span<const double> velocity, std::span<double> out) {
-  const Damping& damping = model_.damping;
-  if (damping.mass > 0)
+void ImplicitSolver::add_damping(double factor, const Motion& motion, std::span<double> out) {
+  const std::span<const double> velocity = motion.velocity;
+  if (!model_.damping_rates.empty())
     for (std::size_t i = 0; i < out.size(); ++i)
-      out[i] += factor * damping.mass * model_.node_masses[i / 3] * velocity[i];
-  if (damping.stiffness > 0) {
-    assembly_.stiffness_product(before_.configuration(), velocity, product_);
-    for (std::size_t i = 0; i < out.size(); ++i) out[i] += factor * damping.stiffness * product_[i];
+      out[i] += factor * model_.damping_rates[i / 3] * model_.node_masses[i / 3] * velocity[i];
+  if (largest_stiffness_damping(model_) > 0) {
+    assembly_.damping_force({motion.displacement, before_.memory}, velocity, product_);
+    for (std::size_t i = 0; i < out.size(); ++i) out[i] += factor * product_[i];
   }
 }
 
@@ -243,11 +244,15 @@ NewtonSystem ImplicitSolver::system(const Step& step) {
       .residual = [this, step](std::span<const double> u, std::span<double> r) { residual(step, u, r); },
       .force_scale = [this] { return force_scale_; },
       .memory = state_.memory,
-      .stiffness_factor = 1 - alpha_f_ + rate * model_.damping.stiffness,
-      .diagonal = std::vector<double>(model_.reference.size())};
-  const double mass_factor = (1 - alpha_m_) / (beta_ * dt * dt) + rate * model_.damping.mass;
-  for (std::size_t i = 0; i < system.diagonal.size(); ++i)
-    system.diagonal[i] = mass_factor * model_.node_masses[i / 3];
+      .stiffness_factor = 1 - alpha_f_,
+      .diagonal = std::vector<double>(model_.reference.size()),
+      .damping_factor = largest_stiffness_damping(model_) > 0 ? rate : 0,
+      .damping_state = {mean_displacement_, before_.memory}};
+  const double inertia = (1 - alpha_m_) / (beta_ * dt * dt);
+  for (std::size_t i = 0; i < system.diagonal.size(); ++i) {
+    const double damping = model_.damping_rates.empty() ? 0 : rate * model_.damping_rates[i / 3];
+    system.diagonal[i] = (inertia + damping) * model_.node_masses[i / 3];
+  }
   return system;
 }
 
@@ -261,10 +266,11 @@ void ImplicitSolver::total_force(double time, std::span<const double> displaceme
 void ImplicitSolver::account(const Step& step) {
   const std::size_t n = model_.reference.size();
   std::vector<double> change(n), needed(n, 0.0);
-  add_damping(1, state_.velocity, needed);
+  add_damping(1, {state_.displacement, state_.velocity}, needed);
   for (std::size_t i = 0; i < n; ++i) {
     change[i] = state_.displacement[i] - before_.displacement[i];
     mean_[i] = 0.5 * (state_.velocity[i] + before_.velocity[i]);
+    mean_displacement_[i] = 0.5 * (state_.displacement[i] + before_.displacement[i]);
     needed[i] += model_.node_masses[i / 3] * state_.acceleration[i] - state_.force[i];
   }
   newton_.slides().carry_over(needed);
@@ -276,7 +282,7 @@ void ImplicitSolver::account(const Step& step) {
   add_works(model_, interface_, {{.time = step.time}, {.time = step.time + step.length}}, change,
             state_.works);
   std::vector<double> damping(n, 0.0);
-  add_damping(1, mean_, damping);
+  add_damping(1, {mean_displacement_, mean_}, damping);
   for (std::size_t i = 0; i < n; ++i) state_.damped += damping[i] * change[i];
 }
 

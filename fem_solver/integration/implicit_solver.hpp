@@ -42,7 +42,7 @@ struct ImplicitState : State {
 /// |---------|-----------------|--------------------------------------------------------------------|-----------|
 /// | r       | spectral_radius | of the step's amplification at infinite frequency, 0 to 1          | 1         |
 /// | u, v, a |                 | displacement and its rates; 0 at the step's start, 1 at its end    | m, ...    |
-/// | M, C    |                 | lumped mass; Rayleigh damping a M + b K with K of the step's start | kg, N s/m |
+/// | M, C    |                 | lumped mass; damping a M + b D with D (damping_product()) inside the step | kg, N s/m |
 /// | F       |                 | external minus internal forces                                     | N         |
 ///
 /// The forces of the interface are a load that is constant over a window and jumps at its ends. So F(u0) of a
@@ -100,8 +100,12 @@ class ImplicitSolver final : public Integrator {
   void update_rates(double length, std::span<const double> displacement);
   void residual(const Step& step, std::span<const double> displacement, std::span<double> residual);
   NewtonSystem system(const Step& step);
-  /// out += factor * C * velocity
-  void add_damping(double factor, std::span<const double> velocity, std::span<double> out);
+  /// 3 a node (m, m/s)
+  struct Motion {
+    std::span<const double> displacement, velocity;
+  };
+  /// out += factor * C(displacement) velocity
+  void add_damping(double factor, const Motion& motion, std::span<double> out);
   void total_force(double time, std::span<const double> displacement, std::span<double> force);
   void account(const Step& step);
   /// Books what the step has created. @return whether it may stand
@@ -118,8 +122,9 @@ class ImplicitSolver final : public Integrator {
   Newton newton_;
   ImplicitState state_;
   ImplicitState saved_;
-  ImplicitState before_;                ///< the start of the step in progress
-  std::vector<double> mean_, product_;  ///< velocity inside a step, and stiffness times it
+  ImplicitState before_;                          ///< the start of the step in progress
+  std::vector<double> mean_, mean_displacement_;  ///< velocity and displacement inside a step
+  std::vector<double> product_;                   ///< N; what resists strain rates
   double force_scale_ = 0;
   std::vector<NewtonReport> reports_;
   double extent_ = 0;            ///< m; of the structure

@@ -7,7 +7,7 @@
 namespace talus::fem {
 
 AddedMass scale_masses(Model& model, double step) {
-  const double frequency_squared = 4 / (step * step + 2 * model.damping.stiffness * step);
+  const double frequency_squared = 4 / (step * step + 2 * largest_stiffness_damping(model) * step);
   const std::vector<double> rest(model.reference.size(), 0.0);
   const std::vector<double> sums = free_stiffness_bounds(model, rest);
   AddedMass added;

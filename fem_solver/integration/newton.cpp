@@ -66,6 +66,7 @@ void Newton::evaluate(const NewtonSystem& system, const std::vector<double>& dis
 SparseMatrix Newton::tangent(const NewtonSystem& system, std::span<const double> displacement) {
   const SparseMatrix& free =
       stiffness_.assemble({displacement, system.memory}, system.stiffness_factor, system.diagonal);
+  if (system.damping_factor != 0) stiffness_.add_damping(system.damping_state, system.damping_factor);
   return slides_.exists() ? slides_.condense_with_curvature(free) : free;
 }
 

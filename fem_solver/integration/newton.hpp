@@ -12,7 +12,7 @@
 namespace talus::fem {
 
 /// The equations of one load or time step: residual(u) = 0 in the free directions, with the derivative
-/// -(stiffness_factor d2U/du2 + diagonal).
+/// -(stiffness_factor d2U/du2 + damping_factor D + diagonal).
 struct NewtonSystem {
   std::function<void(std::span<const double> displacement, std::span<double> residual)>
       residual;                         ///< N, 3 a node
@@ -20,6 +20,8 @@ struct NewtonSystem {
   std::span<const double> memory = {};  ///< of the elements, at the step's start
   double stiffness_factor = 1;
   std::vector<double> diagonal;  ///< N/m, 3 a node
+  double damping_factor = 0;     ///< 1/s; of what resists strain rates, at `damping_state`
+  Configuration damping_state{std::span<const double>{}, std::span<const double>{}};
 };
 
 struct NewtonOptions {

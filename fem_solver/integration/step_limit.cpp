@@ -112,17 +112,17 @@ double largest_frequency(Assembly& assembly, const Configuration& at) {
   return std::sqrt(std::max(0.0, upper.value + residual));
 }
 
-double stable_step(double frequency, const Damping& damping) {
+double stable_step(double frequency, double damping) {
   if (frequency == 0) return std::numeric_limits<double>::infinity();
-  const double xi = 0.5 * damping.stiffness * frequency;
+  const double xi = 0.5 * damping * frequency;
   return 2 / frequency * (std::sqrt(1 + xi * xi) - xi);
 }
 
 namespace {
 
-std::string formula(double frequency, const Damping& damping) {
+std::string formula(double frequency, double damping) {
   return fmt::format("(2/w)(sqrt(1 + xi^2) - xi) with w = {:.6g} 1/s, xi = {:.3g}", frequency,
-                     0.5 * damping.stiffness * frequency);
+                     0.5 * damping * frequency);
 }
 
 /// A part that can hang slack, and does.
@@ -166,10 +166,10 @@ class BoundSearch {
       add_part(name, batch);
     });
     std::ranges::stable_sort(bounds_, {}, &StepBound::seconds);
-    const double seconds = stable_step(whole_, model_.damping);
+    const double seconds = stable_step(whole_, largest_stiffness_damping(model_));
     bounds_.insert(bounds_.begin(),
                    {"highest frequency of the structure", seconds,
-                    formula(whole_, model_.damping) +
+                    formula(whole_, largest_stiffness_damping(model_)) +
                         ", from the stiffness of the taut structure with its geometric part" + seat_ +
                         snapping(seconds)});
     return std::move(bounds_);
@@ -234,8 +234,8 @@ class BoundSearch {
   }
   void add(const std::string& name, double frequency, const std::string& more) {
     if (frequency > 0)
-      bounds_.push_back(
-          {name, stable_step(frequency, model_.damping), formula(frequency, model_.damping) + more});
+      bounds_.push_back({name, stable_step(frequency, largest_stiffness_damping(model_)),
+                         formula(frequency, largest_stiffness_damping(model_)) + more});
   }
 
   /// The element that a wave passes in the shortest time, L sqrt(density/(E (1 + 2 e) + S)).

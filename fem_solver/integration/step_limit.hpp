@@ -27,8 +27,8 @@ double largest_frequency(Assembly& assembly, const Configuration& at);
 /// that lags half a step. From the characteristic polynomial at z = -1: w^2 dt^2 + 2 b w^2 dt = 4. Centred
 /// mass damping drops out of it. Proven by: "a free oscillator is stable just below the limit and blows up
 /// just above it" (step_limit_test.cpp).
-/// @param frequency w, 1/s. @param damping its stiffness factor b (s) is used. @returns s; infinity for w = 0
-double stable_step(double frequency, const Damping& damping);
+/// @param frequency w, 1/s. @param damping the largest stiffness damping b (s). @returns s; infinity for w = 0
+double stable_step(double frequency, double damping);
 
 /// The bounds at a state, the tightest first: that of the whole structure; where it has several parts, those
 /// of each part's stiffness alone on the structure's masses (bars, cables, sliding ropes, penalty springs,

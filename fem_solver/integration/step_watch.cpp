@@ -18,9 +18,9 @@ constexpr double rise_that_counts = 1.02;
 void StepWatch::look(const Moment& moment) {
   const Model& model = assembly_.model();
   const FrequencyBound bound = frequency_bound(model, moment.at);
-  if (moment.step <= stable_step(std::sqrt(bound.squared), model.damping)) return;
+  if (moment.step <= stable_step(std::sqrt(bound.squared), largest_stiffness_damping(model))) return;
   if (bound.squared <= rise_that_counts * cleared_) return;
-  const double limit = stable_step(largest_frequency(assembly_, moment.at), model.damping);
+  const double limit = stable_step(largest_frequency(assembly_, moment.at), largest_stiffness_damping(model));
   if (moment.step > limit)
     throw core::NumericalError(
         {.what = "the step of " + core::readable(moment.step, "s") +

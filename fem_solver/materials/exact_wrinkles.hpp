@@ -48,6 +48,10 @@ class ExactWrinkles {
   template <class Real, class Mask>
   PlaneStress<Real> stress(const PlaneStrain<Real>& carried, const PlaneStress<Real>& trial,
                            const Mask& relevant) const noexcept;
+  /// (V.rate)/(V.S V) V: what resists a strain rate along the tension.
+  template <class Real, class Mask>
+  PlaneStress<Real> rate_stress(const PlaneStrain<Real>& carried, const PlaneStress<Real>& trial,
+                                const PlaneStrain<Real>& rate, const Mask& relevant) const noexcept;
   double energy_density(const PlaneStrain<double>& carried) const noexcept;
   /// d2w/dd2 = V V^T/D - h_da h_da^T/h_aa: symmetric, positive semidefinite.
   PlaneMatrix tangent(const PlaneStrain<double>& carried) const noexcept;
@@ -99,11 +103,18 @@ ExactWrinkles::DoubledAngle<Real> ExactWrinkles::tension_direction(const PlaneSt
 }
 
 template <class Real, class Mask>
-PlaneStress<Real> ExactWrinkles::stress(const PlaneStrain<Real>& d, const PlaneStress<Real>&,
+PlaneStress<Real> ExactWrinkles::stress(const PlaneStrain<Real>& d, const PlaneStress<Real>& trial,
                                         const Mask& relevant) const noexcept {
+  return rate_stress(d, trial, d, relevant);
+}
+
+template <class Real, class Mask>
+PlaneStress<Real> ExactWrinkles::rate_stress(const PlaneStrain<Real>& d, const PlaneStress<Real>&,
+                                             const PlaneStrain<Real>& rate,
+                                             const Mask& relevant) const noexcept {
   const DoubledAngle<Real> p = tension_direction(d, relevant);
   const PlaneStress<Real> V{1 + p.cosine, stretch_square_ * (1 - p.cosine), stretch_ * p.sine};
-  const Real size = work(V, d) / work(V, elasticity_.strain(V));
+  const Real size = work(V, rate) / work(V, elasticity_.strain(V));
   return {size * V.xx, size * V.yy, size * V.xy};
 }
 

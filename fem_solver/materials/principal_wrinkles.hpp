@@ -35,6 +35,15 @@ class PrincipalWrinkles {
     const Real size = work(trial, U) / work(CU, U);
     return {trial.xx - size * CU.xx, trial.yy - size * CU.yy, trial.xy - size * CU.xy};
   }
+  /// C (rate - (rate.C U)/(U.C U) U): what resists a strain rate along the tension.
+  template <class Real, class Mask>
+  PlaneStress<Real> rate_stress(const PlaneStrain<Real>&, const PlaneStress<Real>& trial,
+                                const PlaneStrain<Real>& rate, const Mask&) const noexcept {
+    const PlaneStrain<Real> U = wrinkle(trial);
+    const PlaneStress<Real> CU = elasticity_.stress(U), taut = elasticity_.stress(rate);
+    const Real size = work(CU, rate) / work(CU, U);
+    return {taut.xx - size * CU.xx, taut.yy - size * CU.yy, taut.xy - size * CU.xy};
+  }
   double energy_density(const PlaneStrain<double>& carried) const noexcept;
   /// d stress/d d with the turning of n; not symmetric on orthotropic sheets.
   PlaneMatrix tangent(const PlaneStrain<double>& carried) const noexcept;

@@ -29,6 +29,11 @@ class LinearSheet {
   PlaneMatrix tangent(const PlaneStrain<double>&) const noexcept { return elasticity_.stiffness(); }
   PlaneMatrix stiffest_tangent() const noexcept { return elasticity_.stiffness(); }
   SheetState state(const PlaneStrain<double>&) const noexcept { return SheetState::taut; }
+  /// What resists a strain rate, per time: C rate. Pa for a rate in 1/s.
+  template <class Real>
+  PlaneStress<Real> rate_stress(const PlaneStrain<Real>&, const PlaneStrain<Real>& rate) const noexcept {
+    return elasticity_.stress(rate);
+  }
 
  private:
   PlaneElasticity elasticity_;
@@ -69,6 +74,11 @@ class TensionField {
   /// The taut sheet's: what a wrinkled one may snap back to. The exact field's tangent never exceeds it.
   PlaneMatrix stiffest_tangent() const noexcept { return elasticity_.stiffness(); }
   SheetState state(const PlaneStrain<double>& strain) const noexcept;
+  /// What resists a strain rate: C rate of a taut sheet, along its tension of a wrinkled one, nothing of a slack
+  /// one. It never puts energy in.
+  template <class Real>
+  PlaneStress<Real> rate_stress(const PlaneStrain<Real>& strain,
+                                const PlaneStrain<Real>& rate) const noexcept;
 
  private:
   template <class Real>
@@ -110,6 +120,22 @@ PlaneStress<Real> TensionField<Direction>::stress(const PlaneStrain<Real>& strai
   return {select(taut, trial.xx, select(slack, zero, relaxed.xx)),
           select(taut, trial.yy, select(slack, zero, relaxed.yy)),
           select(taut, trial.xy, select(slack, zero, relaxed.xy))};
+}
+
+template <class Direction>
+template <class Real>
+PlaneStress<Real> TensionField<Direction>::rate_stress(const PlaneStrain<Real>& strain,
+                                                       const PlaneStrain<Real>& rate) const noexcept {
+  const PlaneStrain<Real> d = carried(strain);
+  const PlaneStress<Real> trial = elasticity_.stress(d), of_taut = elasticity_.stress(rate);
+  const auto taut = is_taut(trial), slack = is_slack(d);
+  const auto wrinkled = !(taut || slack);
+  const PlaneStress<Real> along =
+      any(wrinkled) ? wrinkled_.rate_stress(d, trial, rate, wrinkled) : PlaneStress<Real>{0, 0, 0};
+  const Real zero = 0;
+  return {select(taut, of_taut.xx, select(slack, zero, along.xx)),
+          select(taut, of_taut.yy, select(slack, zero, along.yy)),
+          select(taut, of_taut.xy, select(slack, zero, along.xy))};
 }
 
 template <class Direction>

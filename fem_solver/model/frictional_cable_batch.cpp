@@ -78,6 +78,12 @@ void FrictionalCableBatch::stiffness_product(const Configuration& at, std::span<
       [&](std::size_t i, const Vector3& force) { Vector3::Map(&slots[3 * i]) = force; });
 }
 
+void FrictionalCableBatch::damping_product(const Configuration& at, std::span<const double> velocity,
+                                           std::span<double> slots, core::Block) const noexcept {
+  cable_.material_product(line_.chords(at.displacement), line_.differences(velocity), material(at),
+                          [&](std::size_t i, const Vector3& force) { Vector3::Map(&slots[3 * i]) = force; });
+}
+
 /// With the material held, as in stiffness_product().
 void FrictionalCableBatch::add_stiffness_bound(const Configuration& at,
                                                std::span<double> row_sums) const noexcept {

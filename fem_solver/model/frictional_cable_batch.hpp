@@ -54,6 +54,8 @@ class FrictionalCableBatch {
                         core::Block elements) const noexcept {
     stiffness_product(at, direction, slots, elements);
   }
+  void damping_product(const Configuration& at, std::span<const double> velocity, std::span<double> slots,
+                       core::Block) const noexcept;
   void add_stiffness_bound(const Configuration& at, std::span<double> row_sums) const noexcept;
   double energy(const Configuration& at) const noexcept;
   void add_mass(std::span<double> node_masses) const noexcept { add_rope_mass(line_, part_, node_masses); }
@@ -61,6 +63,12 @@ class FrictionalCableBatch {
   template <class Sink>
   void stiffness(const Configuration& at, const Sink& sink) const {
     cable_.stiffness(
+        line_.chords(at.displacement), material(at),
+        [&](std::size_t i, std::size_t j, const Matrix3& block) { line_.spread_block(i, j, block, sink); });
+  }
+  template <class Sink>
+  void damping_matrix(const Configuration& at, const Sink& sink) const {
+    cable_.material_stiffness(
         line_.chords(at.displacement), material(at),
         [&](std::size_t i, std::size_t j, const Matrix3& block) { line_.spread_block(i, j, block, sink); });
   }
@@ -73,6 +81,7 @@ class FrictionalCableBatch {
   /// (m).
   double slip(const Configuration& at, Index segment) const noexcept;
   const RopeLine& line() const { return line_; }
+  const AxialPart& part() const { return part_; }
 
  private:
   std::size_t segments() const noexcept { return static_cast<std::size_t>(line_.segments()); }

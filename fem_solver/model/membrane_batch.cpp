@@ -60,22 +60,23 @@ MembraneBatch<Law>::MembraneBatch(const MembranePart& part, const Law& law,
 }
 
 template <class Law>
-void MembraneBatch<Law>::internal_force(const Configuration& at, std::span<double> slots,
-                                        core::Block elements) const noexcept {
+template <class FillPack>
+void MembraneBatch<Law>::for_each_pack(core::Block elements, const FillPack& fill) noexcept {
   static_assert(core::default_block_length % lanes == 0, "blocks of elements begin with a pack");
   const auto end = static_cast<Index>((elements.end + lanes - 1) / lanes);
-  for (auto pack = static_cast<Index>(elements.begin / lanes); pack < end; ++pack)
-    pack_force(at, slots, pack);
+  for (auto pack = static_cast<Index>(elements.begin / lanes); pack < end; ++pack) fill(pack);
 }
 
 template <class Law>
-void MembraneBatch<Law>::pack_force(const Configuration& at, std::span<double> slots,
-                                    Index pack) const noexcept {
-  const auto& [first, second, third] = nodes_[place(pack)];
+template <class StressOf>
+void MembraneBatch<Law>::fill_pack(const Configuration& at, std::span<double> slots, Index pack,
+                                   const StressOf& stress_of) const noexcept {
+  const auto& nodes = nodes_[place(pack)];
+  const auto& [first, second, third] = nodes;
   const MembraneTriangle<Lanes>& triangle = packs_[place(pack)];
   const auto deformation = triangle.deform({gather_difference(at.displacement.data(), first, second),
                                             gather_difference(at.displacement.data(), first, third)});
-  const auto force = triangle.force(deformation, law_.stress(deformation.strain));
+  const auto force = triangle.force(deformation, stress_of(triangle, deformation, nodes));
   const Index filled = std::min(lanes, size() - pack * lanes);
   double* slot = &slots[6 * place(pack * lanes)];
   for (std::size_t lane = 0; lane < place(filled); ++lane)
@@ -84,6 +85,28 @@ void MembraneBatch<Law>::pack_force(const Configuration& at, std::span<double> s
       *slot++ = f.y[lane];
       *slot++ = f.z[lane];
     }
+}
+
+template <class Law>
+void MembraneBatch<Law>::internal_force(const Configuration& at, std::span<double> slots,
+                                        core::Block elements) const noexcept {
+  const auto stress_of = [&](const auto&, const auto& deformation, const auto&) {
+    return law_.stress(deformation.strain);
+  };
+  for_each_pack(elements, [&](Index pack) { fill_pack(at, slots, pack, stress_of); });
+}
+
+template <class Law>
+void MembraneBatch<Law>::damping_product(const Configuration& at, std::span<const double> velocity,
+                                         std::span<double> slots, core::Block elements) const noexcept {
+  const auto stress_of = [&](const auto& triangle, const auto& deformation, const auto& nodes) {
+    const auto& [first, second, third] = nodes;
+    return law_.rate_stress(
+        deformation.strain,
+        triangle.strain_rate(deformation, {gather_difference(velocity.data(), first, second),
+                                           gather_difference(velocity.data(), first, third)}));
+  };
+  for_each_pack(elements, [&](Index pack) { fill_pack(at, slots, pack, stress_of); });
 }
 
 template <class Law>
@@ -169,6 +192,17 @@ template <class Law>
 Matrix9 MembraneBatch<Law>::element_stiffness(const Configuration& at, Index e) const {
   const auto state = deformation(at, e);
   return membrane_stiffness(triangle(e), state, law_.stress(state.strain), law_.tangent(state.strain));
+}
+
+/// The law's answer to each unit rate, without the stress's own part.
+template <class Law>
+Matrix9 MembraneBatch<Law>::element_damping(const Configuration& at, Index e) const {
+  const auto state = deformation(at, e);
+  PlaneMatrix moduli;
+  for (int k = 0; k < 3; ++k)
+    moduli.col(k) = to_vector(law_.rate_stress(
+        state.strain, PlaneStrain<double>{k == 0 ? 1.0 : 0, k == 1 ? 1.0 : 0, k == 2 ? 1.0 : 0}));
+  return membrane_stiffness(triangle(e), state, {0, 0, 0}, moduli);
 }
 
 template <class Law>

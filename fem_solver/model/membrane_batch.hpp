@@ -55,6 +55,8 @@ class MembraneBatch {
   /// With the moduli of the taut sheet, which those of a wrinkled or slack one never exceed.
   void stiffest_product(const Configuration& at, std::span<const double> direction, std::span<double> slots,
                         core::Block elements) const noexcept;
+  void damping_product(const Configuration& at, std::span<const double> velocity, std::span<double> slots,
+                       core::Block elements) const noexcept;
   void add_stiffness_bound(const Configuration& at, std::span<double> row_sums) const noexcept;
   double energy(const Configuration& at) const noexcept;
   void add_mass(std::span<double> node_masses) const noexcept;
@@ -62,13 +64,11 @@ class MembraneBatch {
   /// sink(row node, column node, 3x3 block), the same blocks in the same order whatever the state.
   template <class Sink>
   void stiffness(const Configuration& at, const Sink& sink) const {
-    for (Index e = 0; e < size(); ++e) {
-      const Matrix9 K = element_stiffness(at, e);
-      for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j)
-          sink(triangles_[place(e)][static_cast<std::size_t>(i)],
-               triangles_[place(e)][static_cast<std::size_t>(j)], Matrix3(K.block<3, 3>(3 * i, 3 * j)));
-    }
+    for (Index e = 0; e < size(); ++e) spread(e, element_stiffness(at, e), sink);
+  }
+  template <class Sink>
+  void damping_matrix(const Configuration& at, const Sink& sink) const {
+    for (Index e = 0; e < size(); ++e) spread(e, element_damping(at, e), sink);
   }
 
   SheetState state(const Configuration& at, Index e) const noexcept;
@@ -83,7 +83,20 @@ class MembraneBatch {
   std::array<Triple<double>, 2> relative(std::span<const double> values, Index e) const noexcept;
   MembraneTriangle<double>::Deformation deformation(const Configuration& at, Index e) const noexcept;
   Matrix9 element_stiffness(const Configuration& at, Index e) const;
-  void pack_force(const Configuration& at, std::span<double> slots, Index pack) const noexcept;
+  Matrix9 element_damping(const Configuration& at, Index e) const;
+  template <class Sink>
+  void spread(Index e, const Matrix9& K, const Sink& sink) const {
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+        sink(triangles_[place(e)][static_cast<std::size_t>(i)],
+             triangles_[place(e)][static_cast<std::size_t>(j)], Matrix3(K.block<3, 3>(3 * i, 3 * j)));
+  }
+  /// stress_of(triangle, deformation, nodes of each lane by corner) in the slots of a pack.
+  template <class StressOf>
+  void fill_pack(const Configuration& at, std::span<double> slots, Index pack,
+                 const StressOf& stress_of) const noexcept;
+  template <class FillPack>
+  static void for_each_pack(core::Block elements, const FillPack& fill) noexcept;
   /// Slots of K times a direction with the given moduli.
   void product(const Configuration& at, std::span<const double> direction, const PlaneMatrix& moduli, Index e,
                std::span<double> slots) const noexcept;

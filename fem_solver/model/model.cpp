@@ -81,6 +81,22 @@ void lump_masses(Model& model) {
     std::visit([&](const auto& batch) { batch.add_mass(model.node_masses); }, part.elements);
 }
 
+void weigh(Model& model, const Vector3& gravity) {
+  model.weight.clear();
+  for (const double mass : model.node_masses)
+    for (const double g : gravity) model.weight.push_back(mass * g);
+}
+
+void damp_by_stiffness(Model& model, double seconds) {
+  for (Part& part : model.parts) part.stiffness_damping = seconds;
+}
+
+double largest_stiffness_damping(const Model& model) {
+  double largest = 0;
+  for (const Part& part : model.parts) largest = std::max(largest, part.stiffness_damping);
+  return largest;
+}
+
 std::string node_name(const Model& model, Index node) {
   const Vector3 x = model.position(node);
   const auto owner = std::find_if(model.parts.begin(), model.parts.end(), [node](const Part& part) {

@@ -12,6 +12,7 @@
 #include "fem_solver/model/configuration.hpp"
 #include "fem_solver/model/frictional_cable_batch.hpp"
 #include "fem_solver/model/membrane_batch.hpp"
+#include "fem_solver/model/obstacle_batch.hpp"
 #include "fem_solver/model/path_batch.hpp"
 #include "fem_solver/model/penalty_slide_batch.hpp"
 #include "fem_solver/model/rope_batch.hpp"
@@ -29,6 +30,10 @@ namespace talus::fem {
 ///   internal_force(at, slots, range)       dU/du of the elements of a range (N); noexcept, no allocation
 ///   stiffness_product(at, w, slots, range) (d2U/du2) w
 ///   stiffness(at, sink)                    d2U/du2 as 3x3 blocks
+///   damping_product(at, v, slots, range)   what resists the rate of strain, per second of stiffness damping: the
+///                                          stiffness of the material alone times velocities, never negative work,
+///                                          none in what is slack, no moment on a rigid motion
+///   damping_matrix(at, sink)               the same as 3x3 blocks, in the order of stiffness()
 ///   energy(at)                             U (J), zero at the reference state
 ///   add_stiffness_bound(at, row_sums)      sizes of the numbers in each row of d2U/du2, summed, with everything taut
 ///                                          that may become taut (N/m, 3 a node)
@@ -38,14 +43,16 @@ using ElementBatch =
     std::variant<BarBatch, CableBatch, SlidingCableBatch, PlainMembraneBatch, TensionFieldBatch,
                  PrincipalTensionFieldBatch, FrictionalCableBatch, BrakeBatch, ElasticPlasticBatch,
                  BreakingCableBatch, BreakingElasticPlasticBatch, BreakingBrakeBatch, BreakingRopeBatch,
-                 PenaltySlideBatch, UserLineBatch, UserTriangleBatch>;
+                 BreakingFrictionalCableBatch, PenaltySlideBatch, ObstacleBatch, UserLineBatch,
+                 UserTriangleBatch>;
 
 struct Part {
   std::string name;
   ElementBatch elements;
-  std::vector<Index> nodes;  ///< that its elements touch, ascending
-  double breaking_load = 0;  ///< N; 0: not known
-  double buckling_load = 0;  ///< N; of its longest element by Euler; 0: not known
+  std::vector<Index> nodes;      ///< that its elements touch, ascending
+  double breaking_load = 0;      ///< N; 0: not known
+  double buckling_load = 0;      ///< N; of its longest element by Euler; 0: not known
+  double stiffness_damping = 0;  ///< s; times damping_product(); lowers the step limit
 };
 
 /// A factor over time, linear between its points and constant beyond them; empty: 1.
@@ -86,12 +93,6 @@ struct InitialDisplacement {
   Vector3 displacement = Vector3::Zero();  ///< m
 };
 
-/// Rayleigh damping C = mass M + stiffness K, with the current tangent K.
-struct Damping {
-  double mass = 0;       ///< 1/s
-  double stiffness = 0;  ///< s
-};
-
 /// Nodes held on a rope of other elements by multi-point constraints.
 struct ConstrainedSlide {
   std::string name;
@@ -100,7 +101,10 @@ struct ConstrainedSlide {
 
 struct Model {
   std::vector<double> reference;    ///< m; node positions, 3 a node
-  std::vector<double> node_masses;  ///< kg; of elements and point masses
+  std::vector<double> node_masses;  ///< kg; what inertia meets: elements, point masses, what scaling added
+  std::vector<double> weight;       ///< N, 3 a node; times `gravity_history`; empty: nothing weighs
+  TimeTable gravity_history;
+  std::vector<double> damping_rates;  ///< 1/s, of each node: force against velocity per mass; empty: none
   std::vector<Part> parts;
   std::map<std::string, std::vector<Index>> node_sets;
   std::vector<Support> supports;
@@ -108,9 +112,6 @@ struct Model {
   std::vector<InitialDisplacement> initial_displacements;
   std::vector<InitialVelocity> initial_velocities;
   std::vector<ConstrainedSlide> constrained_slides;
-  std::optional<Vector3> gravity;  ///< m/s^2; times `gravity_history`
-  TimeTable gravity_history;
-  Damping damping;
 
   Index nodes() const { return static_cast<Index>(reference.size() / 3); }
   Vector3 position(Index node) const { return Vector3::Map(&reference[3 * static_cast<std::size_t>(node)]); }
@@ -158,6 +159,11 @@ std::vector<double> stiffness_bounds(const Model& model, const Configuration& at
 
 /// Sums node_masses from the elements. Point masses are added by whoever knows them.
 void lump_masses(Model& model);
+/// Gives all masses the same gravity (m/s^2).
+void weigh(Model& model, const Vector3& gravity);
+/// The same stiffness damping for all parts (s), the largest of all parts.
+void damp_by_stiffness(Model& model, double seconds);
+double largest_stiffness_damping(const Model& model);
 
 /// "node 17 of net at (1.5, 1.5, 0) m"
 std::string node_name(const Model& model, Index node);

@@ -1,5 +1,6 @@
 #include "fem_solver/model/path_batch.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace talus::fem {
@@ -34,6 +35,21 @@ void PathBatch<Law>::stiffness_product(const Configuration& at, std::span<const 
     Vector3::Map(&slots[3 * place(e)]) =
         segment(e).stiffness(d, segment(e).respond(d, kept(at, e))) * difference(direction, e);
   }
+}
+
+template <class Law>
+Matrix3 PathBatch<Law>::material_stiffness(const Configuration& at, Index e) const noexcept {
+  const Vector3 d = chord(at.displacement, e);
+  const AxialResponse response = segment(e).respond(d, kept(at, e));
+  return segment(e).stiffness(
+      d, {.force = 0, .slope = std::max(0.0, response.slope), .history = response.history});
+}
+
+template <class Law>
+void PathBatch<Law>::damping_product(const Configuration& at, std::span<const double> velocity,
+                                     std::span<double> slots, core::Block elements) const noexcept {
+  for (auto e = static_cast<Index>(elements.begin); e < elements.end; ++e)
+    Vector3::Map(&slots[3 * place(e)]) = material_stiffness(at, e) * difference(velocity, e);
 }
 
 template <class Law>

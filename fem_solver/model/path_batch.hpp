@@ -46,6 +46,8 @@ class PathBatch {
   /// At the law's initial stiffness, to which it may unload in any step.
   void stiffest_product(const Configuration& at, std::span<const double> direction, std::span<double> slots,
                         core::Block elements) const noexcept;
+  void damping_product(const Configuration& at, std::span<const double> velocity, std::span<double> slots,
+                       core::Block elements) const noexcept;
   void add_stiffness_bound(const Configuration& at, std::span<double> row_sums) const noexcept;
   double energy(const Configuration& at) const noexcept;
   void add_mass(std::span<double> node_masses) const noexcept;
@@ -56,6 +58,12 @@ class PathBatch {
       const Matrix3 K = segment(e).stiffness(d, segment(e).respond(d, kept(at, e)));
       spread_pair_block(segments_[place(e)], segments_[place(e)], K, sink);
     }
+  }
+
+  template <class Sink>
+  void damping_matrix(const Configuration& at, const Sink& sink) const {
+    for (Index e = 0; e < size(); ++e)
+      spread_pair_block(segments_[place(e)], segments_[place(e)], material_stiffness(at, e), sink);
   }
 
   double dissipated(const Configuration& at) const noexcept;  ///< J
@@ -82,6 +90,8 @@ class PathBatch {
     const auto [near, far] = segments_[place(e)];
     return Vector3::Map(&values[3 * place(far)]) - Vector3::Map(&values[3 * place(near)]);
   }
+  /// Along the element, with the slope of its law; a law that softens has none.
+  Matrix3 material_stiffness(const Configuration& at, Index e) const noexcept;
   /// The far node's block at the law's initial stiffness; zero once broken.
   Matrix3 stiffest(const Configuration& at, Index e) const noexcept;
   Vector3 chord(std::span<const double> displacement, Index e) const noexcept {

@@ -61,6 +61,15 @@ void PenaltySlideBatch::stiffness_product(const Configuration& at, std::span<con
   });
 }
 
+void PenaltySlideBatch::damping_product(const Configuration& at, std::span<const double> velocity,
+                                        std::span<double> slots, core::Block) const noexcept {
+  fill_slots(at, slots, [&](std::size_t k, const Contact& touched) {
+    const Index* rope = &line_.rope[touched.segment];
+    return touched.spring.material_product({node_value(velocity, rope[0]), node_value(velocity, rope[1]),
+                                            node_value(velocity, line_.sliders[k])});
+  });
+}
+
 void PenaltySlideBatch::stiffest_product(const Configuration& at, std::span<const double> direction,
                                          std::span<double> slots, core::Block) const noexcept {
   fill_slots(at, slots, [&](std::size_t k, const Contact& touched) -> PenaltySlide::Nodes {

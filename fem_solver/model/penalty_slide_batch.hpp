@@ -42,6 +42,8 @@ class PenaltySlideBatch {
   /// pull; without the geometric part, a share gap/segment of the rest.
   void stiffest_product(const Configuration& at, std::span<const double> direction, std::span<double> slots,
                         core::Block elements) const noexcept;
+  void damping_product(const Configuration& at, std::span<const double> velocity, std::span<double> slots,
+                       core::Block) const noexcept;
   void add_stiffness_bound(const Configuration& at, std::span<double> row_sums) const noexcept;
   double energy(const Configuration& at) const noexcept;
   void add_mass(std::span<double>) const noexcept {}
@@ -58,9 +60,21 @@ class PenaltySlideBatch {
   /// are zero.
   template <class Sink>
   void stiffness(const Configuration& at, const Sink& sink) const {
+    spread(
+        at, [](const PenaltySlide& spring) { return spring.stiffness(); }, sink);
+  }
+  template <class Sink>
+  void damping_matrix(const Configuration& at, const Sink& sink) const {
+    spread(
+        at, [](const PenaltySlide& spring) { return spring.material_stiffness(); }, sink);
+  }
+
+ private:
+  template <class MatrixOf, class Sink>
+  void spread(const Configuration& at, const MatrixOf& matrix_of, const Sink& sink) const {
     for (std::size_t k = 0; k < line_.sliders.size(); ++k) {
       const auto [segment, spring] = contact(at, k);
-      const PenaltySlide::Matrix9 K = spring.stiffness();
+      const PenaltySlide::Matrix9 K = matrix_of(spring);
       const auto block = [&](int i, int j) { return Matrix3(K.block<3, 3>(3 * i, 3 * j)); };
       const Index slider = line_.sliders[k];
       sink(slider, slider, block(2, 2));
@@ -77,7 +91,6 @@ class PenaltySlideBatch {
     }
   }
 
- private:
   static Matrix3 zero() { return Matrix3::Zero(); }
   Vector3 position(const Configuration& at, Index node) const noexcept;
   /// A slider's spring at the segment of the rope that is nearest to it.

@@ -85,6 +85,11 @@ void SlidingCableBatch::stiffest_product(const Configuration& at, std::span<cons
   cable_.taut_stiffness_product(line_.chords(at.displacement), line_.differences(direction), into(slots));
 }
 
+void SlidingCableBatch::damping_product(const Configuration& at, std::span<const double> velocity,
+                                        std::span<double> slots, core::Block) const noexcept {
+  cable_.material_product(line_.chords(at.displacement), line_.differences(velocity), into(slots));
+}
+
 /// The stretching of the whole rope is one number times T T^T, the turning of each segment a matter of its two nodes.
 void SlidingCableBatch::add_stiffness_bound(const Configuration& at, std::span<double> row_sums) const {
   const auto chords = line_.chords(at.displacement);

@@ -98,6 +98,8 @@ class SlidingCableBatch {
   /// As if the rope were taut.
   void stiffest_product(const Configuration& at, std::span<const double> direction, std::span<double> slots,
                         core::Block) const noexcept;
+  void damping_product(const Configuration& at, std::span<const double> velocity, std::span<double> slots,
+                       core::Block) const noexcept;
   void add_stiffness_bound(const Configuration& at, std::span<double> row_sums) const;
   double energy(const Configuration& at) const noexcept {
     return cable_.energy(line_.chords(at.displacement));
@@ -108,6 +110,13 @@ class SlidingCableBatch {
     cable_.stiffness(line_.chords(at.displacement), [&](std::size_t i, std::size_t j, const Matrix3& block) {
       line_.spread_block(i, j, block, sink);
     });
+  }
+
+  template <class Sink>
+  void damping_matrix(const Configuration& at, const Sink& sink) const {
+    cable_.material_stiffness(
+        line_.chords(at.displacement),
+        [&](std::size_t i, std::size_t j, const Matrix3& block) { line_.spread_block(i, j, block, sink); });
   }
 
   /// The same in every segment (N).

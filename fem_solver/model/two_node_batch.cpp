@@ -45,6 +45,15 @@ void TwoNodeBatch<Compression>::stiffest_product(const Configuration& at, std::s
 }
 
 template <class Compression>
+void TwoNodeBatch<Compression>::damping_product(const Configuration& at, std::span<const double> velocity,
+                                                std::span<double> slots,
+                                                core::Block elements) const noexcept {
+  for (auto e = static_cast<Index>(elements.begin); e < elements.end; ++e)
+    Vector3::Map(&slots[3 * place(e)]) =
+        element(e).material_product(difference(at.displacement, e), difference(velocity, e));
+}
+
+template <class Compression>
 void TwoNodeBatch<Compression>::add_stiffness_bound(const Configuration& at,
                                                     std::span<double> row_sums) const noexcept {
   for (Index e = 0; e < size(); ++e) {

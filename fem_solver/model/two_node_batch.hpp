@@ -45,6 +45,8 @@ class TwoNodeBatch {
                          core::Block elements) const noexcept;
   void stiffest_product(const Configuration& at, std::span<const double> direction, std::span<double> slots,
                         core::Block elements) const noexcept;
+  void damping_product(const Configuration& at, std::span<const double> velocity, std::span<double> slots,
+                       core::Block elements) const noexcept;
   void add_stiffness_bound(const Configuration& at, std::span<double> row_sums) const noexcept;
   double energy(const Configuration& at) const noexcept;
   void add_mass(std::span<double> node_masses) const noexcept;
@@ -56,6 +58,13 @@ class TwoNodeBatch {
       const Matrix3 K = element(e).stiffness(difference(at.displacement, e));
       spread_pair_block(segments_[place(e)], segments_[place(e)], K, sink);
     }
+  }
+
+  template <class Sink>
+  void damping_matrix(const Configuration& at, const Sink& sink) const {
+    for (Index e = 0; e < size(); ++e)
+      spread_pair_block(segments_[place(e)], segments_[place(e)],
+                        element(e).material_stiffness(difference(at.displacement, e)), sink);
   }
 
   double axial_force(const Configuration& at, Index e) const noexcept {

@@ -43,6 +43,15 @@ class UserBatch {
                         core::Block elements) const noexcept {
     stiffness_product(at, direction, slots, elements);
   }
+  /// An element does not say which part of its stiffness is its material's.
+  void damping_product(const Configuration& at, std::span<const double> velocity, std::span<double> slots,
+                       core::Block elements) const noexcept {
+    stiffness_product(at, velocity, slots, elements);
+  }
+  template <class Sink>
+  void damping_matrix(const Configuration& at, const Sink& sink) const {
+    stiffness(at, sink);
+  }
   void add_stiffness_bound(const Configuration& at, std::span<double> row_sums) const;
   double energy(const Configuration& at) const noexcept;
   double energy(const Configuration& at, Index e) const noexcept;

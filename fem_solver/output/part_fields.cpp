@@ -117,17 +117,38 @@ struct BreakingQuantities {
       {"dissipated_J", [](const Batch& b, At u) { return b.dissipated(u); }}};
 };
 
+template <class Rope>
 struct BreakingRopeQuantities {
-  using Batch = BreakingRopeBatch;
+  using Batch = BreakingRope<Rope>;
   static constexpr core::CellKind kind = core::CellKind::segment;
   static constexpr CellQuantity<Batch> cells[] = {
-      {"axial_force", "N", [](const Batch& b, At u, Index) { return b.axial_force(u); }},
+      {"axial_force", "N", [](const Batch& b, At u, Index e) { return b.tension_of(u, e); }},
       {"broken", "1", [](const Batch& b, At u, Index) { return b.is_broken(u) ? 1.0 : 0.0; }}};
   static constexpr PartQuantity<Batch> whole[] = {
       {"axial_force_max_N", [](const Batch& b, At u) { return b.axial_force(u); }},
       {"elongation_m", [](const Batch& b, At u) { return b.elongation(u); }},
       {"broken_1", [](const Batch& b, At u) { return b.is_broken(u) ? 1.0 : 0.0; }},
       {"dissipated_J", [](const Batch& b, At u) { return b.dissipated(u); }}};
+};
+
+struct ObstacleQuantities {
+  using Batch = ObstacleBatch;
+  static constexpr core::CellKind kind = core::CellKind::vertex;
+  static constexpr CellQuantity<Batch> cells[] = {
+      {"contact_force", "N", [](const Batch& b, At u, Index e) { return b.force(u, e); }},
+      {"depth", "m", [](const Batch& b, At u, Index e) { return b.depth(u, e); }}};
+  static constexpr PartQuantity<Batch> whole[] = {
+      {"contact_force_max_N",
+       [](const Batch& b, At u) { return largest(b, [&](Index e) { return b.force(u, e); }); }},
+      {"contact_force_sum_N",
+       [](const Batch& b, At u) {
+         double sum = 0;
+         for (Index e = 0; e < b.size(); ++e) sum += b.force(u, e);
+         return sum;
+       }},
+      {"depth_max_m",
+       [](const Batch& b, At u) { return largest(b, [&](Index e) { return b.depth(u, e); }); }},
+      {"friction_J", [](const Batch& b, At u) { return b.dissipated(u); }}};
 };
 
 template <std::size_t nodes>
@@ -197,10 +218,12 @@ template <>
 struct QuantitiesOf<SlidingCableBatch> : RopeQuantities {};
 template <>
 struct QuantitiesOf<FrictionalCableBatch> : FrictionalRopeQuantities {};
-template <>
-struct QuantitiesOf<BreakingRopeBatch> : BreakingRopeQuantities {};
+template <class Rope>
+struct QuantitiesOf<BreakingRope<Rope>> : BreakingRopeQuantities<Rope> {};
 template <std::size_t nodes>
 struct QuantitiesOf<UserBatch<nodes>> : UserQuantities<nodes> {};
+template <>
+struct QuantitiesOf<ObstacleBatch> : ObstacleQuantities {};
 template <>
 struct QuantitiesOf<PenaltySlideBatch> : SlideQuantities {};
 template <class Law>

@@ -71,8 +71,8 @@ void StructureOutput::choose_ledger_lines() {
       line("dissipated_" + model_.parts[p].name, LedgerKind::dissipated,
            [p](const EnergyBalance& b) { return b.dissipated[p]; });
   if (!model_.constrained_slides.empty()) line("slides", LedgerKind::dissipated, &EnergyBalance::slides);
-  if (model_.gravity) line("gravity", LedgerKind::stored, &EnergyBalance::gravity);
-  if (model_.damping.mass > 0 || model_.damping.stiffness > 0)
+  if (!model_.weight.empty()) line("gravity", LedgerKind::stored, &EnergyBalance::gravity);
+  if (!model_.damping_rates.empty() || largest_stiffness_damping(model_) > 0)
     line("bulk_damping", LedgerKind::dissipated, &EnergyBalance::bulk_damping);
   if (!model_.loads.empty()) line("loads", LedgerKind::supplied, &EnergyBalance::loads);
   if (std::ranges::any_of(model_.supports, &Support::moves))

@@ -8,7 +8,9 @@
 #include "core/errors.hpp"
 #include "core/program/log.hpp"
 #include "fem_solver/constraints/held_directions.hpp"
+#include "fem_solver/scene/bar_chains.hpp"
 #include "fem_solver/scene/make_elements.hpp"
+#include "fem_solver/scene/masses.hpp"
 #include "fem_solver/scene/node_sets.hpp"
 #include "fem_solver/scene/rope_order.hpp"
 #include "fem_solver/scene/unheld_parts.hpp"
@@ -49,6 +51,7 @@ class Builder {
     lump_masses(model_);
     add_conditions();
     check_masses();
+    refuse_folding_chains(model_);
     warn_of_unheld_parts();
     return std::move(model_);
   }
@@ -60,6 +63,7 @@ class Builder {
   void lead_through(const std::string& name, const PartScene& part, const ThroughScene& through);
   bool is_box(const std::string& set) const;
   Index add_node(const Vector3& position);
+  Index end_of_rope(const Vector3& position);
   void put_sliders_on_ropes();
   void add_elements(MeshedPart& part);
   void add_conditions();
@@ -130,6 +134,19 @@ Index Builder::add_node(const Vector3& position) {
   return model_.nodes() - 1;
 }
 
+/// A node of another part where the scene welds and there is one within its tolerance, or else a new one.
+Index Builder::end_of_rope(const Vector3& position) {
+  if (!scene_.weld) return add_node(position);
+  Index nearest = -1;
+  double least = scene_.weld->tolerance;
+  for (Index node = 0; node < model_.nodes(); ++node)
+    if (const double distance = (model_.position(node) - position).norm(); distance <= least) {
+      least = distance;
+      nearest = node;
+    }
+  return nearest >= 0 ? nearest : add_node(position);
+}
+
 void Builder::put_sliders_on_ropes() {
   for (const auto& slide : scene_.slides) {
     const auto rope = std::ranges::find(parts_, slide.second.rope, &MeshedPart::name);
@@ -145,12 +162,12 @@ bool Builder::is_box(const std::string& set) const {
 
 void Builder::lead_through(const std::string& name, const PartScene& part, const ThroughScene& through) {
   std::vector<RopeStretch> stretches;
-  if (through.from) stretches.push_back({{add_node(*through.from)}});
+  if (through.from) stretches.push_back({{end_of_rope(*through.from)}});
   for (const auto& set : through.nodes) {
     const auto& nodes = find_node_set(model_, part.place, set);
     stretches.push_back({{nodes.begin(), nodes.end()}, !is_box(set)});
   }
-  if (through.to) stretches.push_back({{add_node(*through.to)}});
+  if (through.to) stretches.push_back({{end_of_rope(*through.to)}});
   put_in_order(stretches, model_);
   std::vector<Index> nodes;
   for (const RopeStretch& stretch : stretches)
@@ -215,17 +232,21 @@ void Builder::add_conditions() {
   for (const auto& l : scene_.loads)
     model_.loads.push_back(
         {label("load", model_.loads.size(), l.where), select_nodes(model_, l.where), l.force, {l.over_time}});
+  std::vector<double> point_masses(model_.node_masses.size(), 0.0);
   for (const auto& mass : scene_.point_masses)
-    for (const Index node : select_nodes(model_, mass.where))
+    for (const Index node : select_nodes(model_, mass.where)) {
       model_.node_masses[static_cast<std::size_t>(node)] += mass.mass;
+      point_masses[static_cast<std::size_t>(node)] += mass.mass;
+    }
   for (const auto& initial : scene_.initial_displacements)
     model_.initial_displacements.push_back({select_nodes(model_, initial.where), initial.displacement});
   for (const auto& initial : scene_.initial_velocities)
     model_.initial_velocities.push_back({select_nodes(model_, initial.where), initial.velocity});
+  for (const auto& obstacle : scene_.obstacles) add_obstacle(obstacle, model_);
   held_directions(model_);  // which refuses supports that contradict each other
-  model_.gravity = scene_.gravity;
   model_.gravity_history = {scene_.gravity_over_time};
-  if (scene_.damping) model_.damping = {.mass = scene_.damping->mass, .stiffness = scene_.damping->stiffness};
+  weigh_and_damp(scene_, point_masses, model_);
+  let_held_bars_turn(model_);
 }
 
 void Builder::check_masses() const {

@@ -97,7 +97,6 @@ void describe(core::Fields& fields, SlidingCableScene& rope) {
               "nodes with a friction of their own, such as post heads and shackles; later entries count over "
               "earlier ones");
   fields.section("breaks", rope.breaks, "a rope that bears more is lost as a whole; it is not where absent");
-  fields.rule(!rope.breaks || !rope.has_friction(), "breaks", "is not known yet for ropes with friction");
 }
 
 void describe(core::Fields& fields, ElasticPlasticCableScene& rope) {

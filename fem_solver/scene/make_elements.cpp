@@ -59,9 +59,12 @@ struct Maker {
   }
   ElementBatch operator()(const SlidingCableScene& rope) const {
     need_segments("sliding cable");
-    if (rope.has_friction())
-      return FrictionalCableBatch({axial_part(rope), friction_of(rope), rope.slider_size.value_or(0)},
-                                  elements.segments, model.reference);
+    if (rope.has_friction()) {
+      FrictionalCableBatch cable({axial_part(rope), friction_of(rope), rope.slider_size.value_or(0)},
+                                 elements.segments, model.reference);
+      if (rope.breaks) return BreakingFrictionalCableBatch(std::move(cable), limits_of(*rope.breaks));
+      return cable;
+    }
     SlidingCableBatch cable(axial_part(rope), rope.slider_size.value_or(0), elements.segments,
                             model.reference);
     if (rope.breaks) return BreakingRopeBatch(std::move(cable), limits_of(*rope.breaks));

@@ -10,6 +10,12 @@ void describe(core::Fields& fields, PartScene& part) {
   part.place = fields.place();
   describe_shape(fields, part.shape);
   describe_element(fields, part.element);
+  fields.optional(
+      "gravity", part.gravity,
+      {.unit = "m/s^2",
+       .help = "of this part, in place of the structure's: `[0 m/s^2, 0 m/s^2, 0 m/s^2]` for none",
+       .plausible = core::plausible::gravity});
+  fields.section("damping", part.damping, "of this part, in place of the structure's");
 }
 
 void describe(core::Fields& fields, DampingScene& damping) {
@@ -112,6 +118,7 @@ void describe(core::Fields& fields, StructureScene& structure) {
              "nets, ropes, posts and membranes by name: a shape and an element each", 1);
   fields.section("weld", structure.weld, "joins parts where their nodes coincide");
   fields.map("slides", structure.slides, "nodes that run along ropes of bars or cables, by name");
+  fields.map("obstacles", structure.obstacles, "what nodes run against, such as the ground, by name");
   fields.map("node_sets", structure.node_sets, "nodes by name, for supports, loads and ropes");
   fields.list("supports", structure.supports, "nodes whose motion is given");
   fields.list("loads", structure.loads, "forces on nodes");
@@ -122,9 +129,13 @@ void describe(core::Fields& fields, StructureScene& structure) {
       "gravity", structure.gravity,
       {.unit = "m/s^2", .help = "acceleration of free fall", .plausible = core::plausible::gravity});
   describe_history(fields, "gravity_over_time", structure.gravity_over_time);
-  fields.rule(structure.gravity_over_time.empty() || structure.gravity, "gravity_over_time",
+  const bool weighs = structure.gravity || std::ranges::any_of(structure.parts, [](const auto& part) {
+                        return part.second.gravity.has_value();
+                      });
+  fields.rule(structure.gravity_over_time.empty() || weighs, "gravity_over_time",
               "needs `gravity` beside it");
-  fields.section("damping", structure.damping, "Rayleigh damping of all parts");
+  fields.section("damping", structure.damping,
+                 "of all parts that name none of their own, and of point masses");
   fields.section("start", structure.start,
                  "where the structure is at time 0; as its shapes are written where absent");
   fields.rule(

@@ -11,24 +11,27 @@
 #include "core/scene/fields.hpp"
 #include "fem_solver/scene/conditions.hpp"
 #include "fem_solver/scene/element_scenes.hpp"
+#include "fem_solver/scene/obstacles.hpp"
 #include "fem_solver/scene/shapes.hpp"
 #include "fem_solver/scene/slides.hpp"
 
 /// The section `structure` of a scene.
 namespace talus::fem {
 
-struct PartScene {
-  std::string place;
-  ShapeScene shape;
-  ElementScene element;
-};
-void describe(core::Fields& fields, PartScene& part);
-
 struct DampingScene {
   double mass = 0;       ///< 1/s
   double stiffness = 0;  ///< s
 };
 void describe(core::Fields& fields, DampingScene& damping);
+
+struct PartScene {
+  std::string place;
+  ShapeScene shape;
+  ElementScene element;
+  std::optional<core::Vector3> gravity;  ///< m/s^2; in place of the structure's
+  std::optional<DampingScene> damping;   ///< in place of the structure's
+};
+void describe(core::Fields& fields, PartScene& part);
 
 struct WeldScene {
   double tolerance = 0;  ///< m
@@ -100,6 +103,7 @@ struct StructureScene {
   std::vector<std::pair<std::string, PartScene>> parts;
   std::optional<WeldScene> weld;
   std::vector<NamedSlide> slides;
+  std::vector<NamedObstacle> obstacles;
   std::vector<std::pair<std::string, NodeSelection>> node_sets;
   std::vector<SupportScene> supports;
   std::vector<LoadScene> loads;

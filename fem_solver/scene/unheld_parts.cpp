@@ -32,14 +32,19 @@ std::vector<std::vector<std::string>> unheld_parts(const Model& model) {
   for (const auto& slide : model.constrained_slides) join_line(slide.line, pieces);
 
   std::vector<Index> held;
+  for (const Part& part : model.parts)
+    if (std::holds_alternative<ObstacleBatch>(part.elements))
+      for (const Index node : part.nodes) held.push_back(pieces.of(node));
   for (const Support& support : model.supports)
     for (const Index node : support.nodes) held.push_back(pieces.of(node));
   std::map<Index, std::vector<std::string>> names;
-  for (const Part& part : model.parts)
+  for (const Part& part : model.parts) {
+    if (std::holds_alternative<ObstacleBatch>(part.elements)) continue;
     for (const Index node : part.nodes) {
       auto& piece = names[pieces.of(node)];
       if (piece.empty() || piece.back() != part.name) piece.push_back(part.name);
     }
+  }
   std::vector<std::vector<std::string>> unheld;
   for (auto& [piece, parts] : names)
     if (std::ranges::find(held, piece) == held.end()) unheld.push_back(std::move(parts));

@@ -15,14 +15,14 @@ class Area:
 
 
 _PARTICLES = ("unit_dem_solver", "verification_particles")
-_KERNELS = ("test_fem_elements", "test_fem_batches", "test_fem_axial", "test_structure_kernels")
+_KERNELS = ("test_fem_batches", "test_fem_elements", "test_fem_axial", "test_structure_kernels")
 AREAS = (
     Area("particles: contact", ("dem_solver/contact/*",), _PARTICLES),
     Area("particles: boundary", ("dem_solver/boundary/*",), _PARTICLES),
     Area("particles: integration", ("dem_solver/integration/*", "dem_solver/rocks/rotation.cpp"), _PARTICLES),
     Area("structure: elements", ("fem_solver/elements/*",), _KERNELS + ("test_fem_integration",)),
     Area("structure: materials", ("fem_solver/materials/*",), _KERNELS),
-    Area("structure: constraints", ("fem_solver/constraints/*",), _KERNELS + ("test_fem_slides",)),
+    Area("structure: constraints", ("fem_solver/constraints/*",), _KERNELS + ("test_fem_slides", "test_fem_integration", "verify_structure_statics")),
     Area("structure: integration", ("fem_solver/integration/*",),
          ("test_fem_integration", "test_fem_slides", "test_fem_scene", "verify_structure_explicit", "verify_structure_statics")),
     Area("coupling: acceleration", ("coupler/acceleration/*",), ("test_coupler_acceleration", "test_coupler_schemes", "test_coupler_restart")),

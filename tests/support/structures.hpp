@@ -74,4 +74,13 @@ inline fem::NodalLoad load(fem::Index node, const fem::Vector3& force) {
   return {.name = "load", .nodes = {node}, .force = force, .history = {}};
 }
 
+struct Damping {
+  double mass = 0, stiffness = 0;  // 1/s, s
+};
+/// The same for the whole structure.
+inline void damp(fem::Model& model, const Damping& damping) {
+  model.damping_rates.assign(model.node_masses.size(), damping.mass);
+  fem::damp_by_stiffness(model, damping.stiffness);
+}
+
 }  // namespace talus::tests

@@ -119,7 +119,8 @@ TEST_CASE("stresses, moduli and areas of a lost unit are refused by every elemen
 }
 
 TEST_CASE("a structure without mass, and one in other units, are read") {
-  CHECK(complaint(part(line, "bar: {area: 1, density: 1e-6, youngs_modulus: 10}")) == "no complaint");
+  CHECK(complaint(part("polyline: {points: [[0, 0, 0], [1, 0, 0]]}",
+                       "bar: {area: 1, density: 1e-6, youngs_modulus: 10}")) == "no complaint");
 }
 
 namespace {

@@ -206,7 +206,19 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("projecting velocities equals the condensed equations of motion") {
+namespace {
+
+/// One rope along nodes 0, 1, ...; the sliders behind them.
+SlideNetwork one_rope(std::size_t rope_nodes, std::size_t sliders) {
+  SlideNetwork network{.nodes = rope_nodes + sliders, .ropes = {{}}, .sliders = {}};
+  for (std::size_t k = 0; k < rope_nodes; ++k) network.ropes[0].push_back(k);
+  for (std::size_t k = 0; k < sliders; ++k) network.sliders.push_back({rope_nodes + k, 0});
+  return network;
+}
+
+}  // namespace
+
+TEST_CASE("stopping velocities equals the condensed equations of motion") {
   // One rope segment and a slider of unlike masses: minimise the kinetic energy of the change over all
   // velocities that keep the constraint, with the slave directions eliminated: v = L z, (L^T M L) z = L^T M
   // v_free.
@@ -221,9 +233,10 @@ TEST_CASE("projecting velocities equals the condensed equations of motion") {
     for (int node = 0; node < 3; ++node) mass.segment<3>(3 * node).setConstant(dice.decades(0.1, 10));
     const Vector9 expected =
         L * (L.transpose() * mass.asDiagonal() * L).inverse() * (L.transpose() * mass.asDiagonal() * v);
-    SlideProjection projection({2, 1});
+    SlideProjection projection(one_rope(2, 1));
     const Vector9 inverse = mass.cwiseInverse();
-    REQUIRE(projection.project({{x.data(), 9}, {inverse.data(), 9}, 1e-3}, {v.data(), 9}));
+    double segment = 0;
+    REQUIRE(projection.stop({{x.data(), 9}, {&segment, 1}}, {inverse.data(), 9}, {v.data(), 9}));
     CHECK((v - expected).norm() < 1e-10);
   }
 }
@@ -231,7 +244,7 @@ TEST_CASE("projecting velocities equals the condensed equations of motion") {
 TEST_CASE("sliders that share rope nodes are held all at once and momentum stays") {
   Dice dice(57);
   constexpr std::size_t rope_nodes = 6, sliders = 9;
-  SlideProjection projection({rope_nodes, sliders});
+  SlideProjection projection(one_rope(rope_nodes, sliders));
   Eigen::VectorXd x(3 * (rope_nodes + sliders)), v = Eigen::VectorXd::Random(x.size()), inverse(x.size());
   for (std::size_t k = 0; k < rope_nodes; ++k)
     x.segment<3>(3 * static_cast<Eigen::Index>(k)) = Vector3(double(k), 0.2 * double(k * k), 0);
@@ -248,33 +261,42 @@ TEST_CASE("sliders that share rope nodes are held all at once and momentum stays
     return sum;
   };
   const Vector3 before = momentum();
-  REQUIRE(projection.project({span_of(x), span_of(inverse), 1e-3},
-                             {v.data(), static_cast<std::size_t>(v.size())}));
+  std::vector<double> segments(sliders);
+  projection.search({span_of(x), segments});
+  REQUIRE(projection.stop({span_of(x), segments}, span_of(inverse),
+                          {v.data(), static_cast<std::size_t>(v.size())}));
   CHECK((momentum() - before).norm() < 1e-11);
   for (std::size_t k = 0; k < sliders; ++k) {
     const auto& contact = projection.contacts()[k];
-    const auto C = static_cast<Eigen::Index>(rope_nodes + k), A = static_cast<Eigen::Index>(contact.segment);
+    const auto C = static_cast<Eigen::Index>(rope_nodes + k), A = static_cast<Eigen::Index>(contact.near);
     const Vector3 relative = v.segment<3>(3 * C) - (1 - contact.fraction) * v.segment<3>(3 * A) -
                              contact.fraction * v.segment<3>(3 * A + 3);
     CHECK(relative.cross(contact.along).norm() < 1e-11);
   }
 }
 
-TEST_CASE("a slider off its rope is back on it after one step and one at the rope's end stays there") {
-  SlideProjection projection({2, 1});
+TEST_CASE("a slider off its rope is moved back without speed and one at the rope's end stays there") {
+  SlideProjection projection(one_rope(2, 1));
+  double segment = 0, moves[9];
   const double inverse[9] = {0, 0, 0, 0, 0, 0, 1, 1, 1};
   double x[9] = {0, 0, 0, 1, 0, 0, 0.4, 1e-3, 0}, v[9] = {0, 0, 0, 0, 0, 0, 3, 0.1, 0.2};
-  REQUIRE(projection.project({x, inverse, 0.01}, v));
-  CHECK(projection.largest_violation() == Approx(1e-3));
+  REQUIRE(projection.stop({x, {&segment, 1}}, inverse, v));
+  CHECK(projection.contacts()[0].violation == Approx(1e-3));
   CHECK(v[6] == 3);
-  CHECK(x[7] + 0.01 * v[7] == Approx(0).margin(1e-15));
+  CHECK(v[7] == Approx(0).margin(1e-15));
   CHECK(v[8] == Approx(0).margin(1e-15));
+  REQUIRE(projection.put_back({x, {&segment, 1}}, inverse, moves));
+  CHECK(moves[6] == Approx(0).margin(1e-18));
+  CHECK(x[7] + moves[7] == Approx(0).margin(1e-15));
+  const double past_end[9] = {0, 0, 0, 1, 0, 0, 1.25, 0, 0};
+  REQUIRE(projection.put_back({past_end, {&segment, 1}}, inverse, moves));
+  CHECK(moves[6] == Approx(-0.25));
   double at_end[9] = {0, 0, 0, 1, 0, 0, 1, 0, 0}, leaving[9] = {0, 0, 0, 0, 0, 0, 3, 0, 0};
-  REQUIRE(projection.project({at_end, inverse, 0.01}, leaving));
+  REQUIRE(projection.stop({at_end, {&segment, 1}}, inverse, leaving));
   CHECK(projection.contacts()[0].at_end);
   CHECK(leaving[6] == Approx(0).margin(1e-15));
   double returning[9] = {0, 0, 0, 0, 0, 0, -3, 0, 0};
-  REQUIRE(projection.project({at_end, inverse, 0.01}, returning));
+  REQUIRE(projection.stop({at_end, {&segment, 1}}, inverse, returning));
   CHECK(returning[6] == -3);
 }
 
@@ -291,8 +313,59 @@ TEST_CASE("a slider that nearly follows its rope by itself gets no more impulse 
     const double across = dice.decades(1e-12, 1);
     v.segment<3>(6) += dice.uniform(-5, 5) * w + across * w.cross(dice.vector(1)).normalized();
     const Vector9 before = v, inverse = Vector9::Ones();
-    SlideProjection projection({2, 1});
-    REQUIRE(projection.project({{x.data(), 9}, {inverse.data(), 9}, 1}, {v.data(), 9}));
+    SlideProjection projection(one_rope(2, 1));
+    double segment = 0;
+    REQUIRE(projection.stop({{x.data(), 9}, {&segment, 1}}, {inverse.data(), 9}, {v.data(), 9}));
     CHECK((v - before).norm() < across + 1e-12 * (before.norm() + x.norm()));
   }
+}
+
+TEST_CASE("ropes that share a slider, and a slider that leads another rope, are held at once") {
+  // Rope 0 along x through nodes 0, 1; rope 1 from node 2, which slides on rope 0, to node 3; node 4 slides on
+  // rope 1; node 5 slides on both, where they cross at node 2's place would be singular, so it has rope 1 alone and
+  // rope 2, which crosses it.
+  SlideNetwork network{
+      .nodes = 8, .ropes = {{0, 1}, {2, 3}, {6, 7}}, .sliders = {{2, 0}, {4, 1}, {5, 1}, {5, 2}}};
+  Eigen::VectorXd x(24), v(24), inverse(24);
+  x << 0, 0, 0, 4, 0, 0, 2, 0, 0, 2, 3, 0, 2, 1, 0, 2, 2, 0, 1, 2, 0, 3, 2, 0;
+  Dice dice(59);
+  for (Eigen::Index i = 0; i < 24; ++i) v[i] = dice.uniform(-3, 3);
+  for (Eigen::Index i = 0; i < 24; i += 3) inverse.segment<3>(i).setConstant(dice.decades(0.1, 10));
+  SlideProjection projection(network);
+  std::vector<double> segments(4);
+  const double before = (v.array().square() / inverse.array()).sum();
+  REQUIRE(projection.stop({span_of(x), segments}, span_of(inverse), {v.data(), 24}));
+  const auto across = [&](int slider, int near, int far, double t) {
+    const Vector3 rate =
+        v.segment<3>(3 * slider) - (1 - t) * v.segment<3>(3 * near) - t * v.segment<3>(3 * far);
+    const Vector3 along = (x.segment<3>(3 * far) - x.segment<3>(3 * near)).normalized();
+    return rate.cross(along).norm();
+  };
+  CHECK(across(2, 0, 1, 0.5) < 1e-11);
+  CHECK(across(4, 2, 3, 1.0 / 3) < 1e-11);
+  CHECK(across(5, 2, 3, 2.0 / 3) < 1e-11);
+  CHECK(across(5, 6, 7, 0.5) < 1e-11);
+  // Gauss: what is taken is orthogonal to what stays
+  CHECK((v.array().square() / inverse.array()).sum() < before);
+}
+
+TEST_CASE("a slider runs round a closed rope past the node where the rope begins") {
+  SlideNetwork network{.nodes = 5, .ropes = {{0, 1, 2, 3, 0}}, .sliders = {{4, 0}}};
+  SlideProjection projection(network);
+  std::vector<double> inverse(15, 0.0), segment{3};
+  inverse[12] = inverse[13] = inverse[14] = 1;
+  // square with corners (0,0), (1,0), (1,1), (0,1); the slider comes down the last side towards (0,0)
+  std::vector<double> x{0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0, 0.01, 0}, v(15, 0.0), moves(15);
+  v[12] = 0.5;
+  v[13] = -2;
+  REQUIRE(projection.stop({x, segment}, inverse, v));
+  CHECK(segment[0] == 3);
+  CHECK(v[12] == Approx(0).margin(1e-14));
+  CHECK(v[13] == -2);
+  x[12] = 0.01;  // round the corner
+  x[13] = -0.001;
+  REQUIRE(projection.put_back({x, segment}, inverse, moves));
+  CHECK(segment[0] == 0);
+  CHECK(moves[12] == Approx(0).margin(1e-15));
+  CHECK(moves[13] == Approx(0.001));
 }

@@ -38,7 +38,7 @@ struct Run {
   static double limit(const Model& model) {
     Assembly assembly(model);
     return stable_step(largest_frequency(assembly, std::vector<double>(model.reference.size(), 0.0)),
-                       model.damping);
+                       largest_stiffness_damping(model));
   }
   void steps(int count) {
     for (int k = 0; k < count; ++k, time += step) solver.step(time, step);
@@ -98,8 +98,8 @@ TEST_CASE(
 
 TEST_CASE("damping, loads, gravity and moving supports close the energy balance") {
   Model model = tests::net<CableBatch>(tests::wire, 0.1, 7);
-  model.damping = {.mass = 40, .stiffness = 2e-6};
-  model.gravity = Vector3(0, 1, -9.81);
+  tests::damp(model, {.mass = 40, .stiffness = 2e-6});
+  weigh(model, Vector3(0, 1, -9.81));
   model.loads = {tests::load(24, {5, 0, -20})};
   model.loads[0].history.points = {{0, 0}, {0.01, 1}};
   model.supports[0].displacement = Vector3(0.01, 0, 0.02);
@@ -143,8 +143,8 @@ TEST_CASE("a supported node follows its prescribed motion and its neighbours fee
 TEST_CASE("a reaction at rest is the weight it carries") {
   Model model = tests::chain<BarBatch>(tests::steel, 1, 4);
   model.supports = {tests::fixed({0})};
-  model.gravity = Vector3(-9.81, 0, 0);
-  model.damping.mass = 5000;
+  weigh(model, Vector3(-9.81, 0, 0));
+  model.damping_rates.assign(model.node_masses.size(), 5000);
   Run run(std::move(model), 2e-5);
   run.steps(20000);
   CHECK(run.solver.state().reactions[0] == Approx(1e-4 * 7850 * 9.81).epsilon(1e-6));
@@ -153,8 +153,8 @@ TEST_CASE("a reaction at rest is the weight it carries") {
 TEST_CASE("one, two and four threads give the same bits") {
   const auto run_with = [](int threads) {
     Model model = tests::net<CableBatch>(tests::wire, 0.1, 30);
-    model.damping = {.mass = 20, .stiffness = 1e-7};
-    model.gravity = Vector3(0, 0, -9.81);
+    tests::damp(model, {.mass = 20, .stiffness = 1e-7});
+    weigh(model, Vector3(0, 0, -9.81));
     talus::core::set_thread_count(threads);
     Run run(std::move(model), 1e-4);
     for (Index i = 0; i < 300; ++i) run.solver.state().velocity[900 + i] = std::sin(i);
@@ -182,7 +182,7 @@ TEST_CASE("going back to a saved state repeats the run bit for bit") {
 
 TEST_CASE("asking for energies before the first step changes no bit of the state") {
   Model model = tests::net<CableBatch>(tests::wire, 0.1, 9);
-  model.gravity = Vector3(0, 0, -9.81);
+  weigh(model, Vector3(0, 0, -9.81));
   Run run(std::move(model), 1e-4);
   const ExplicitState before = run.solver.state();
   CHECK(run.solver.balance().elastic.front() == Approx(0).margin(1e-12));
@@ -192,8 +192,8 @@ TEST_CASE("asking for energies before the first step changes no bit of the state
 TEST_CASE("a step that was prepared, in a state left and come back to, has the bits of one that was not") {
   const auto run_with = [](bool prepares) {
     Model model = tests::net<CableBatch>(tests::wire, 0.1, 9);
-    model.damping = {.mass = 20, .stiffness = 1e-7};
-    model.gravity = Vector3(0, 0, -9.81);
+    tests::damp(model, {.mass = 20, .stiffness = 1e-7});
+    weigh(model, Vector3(0, 0, -9.81));
     Run run(std::move(model), 1e-4);
     run.solver.state().velocity[3 * 40 + 2] = 3;
     for (int k = 0; k < 50; ++k) {
@@ -239,7 +239,7 @@ TEST_CASE(
 TEST_CASE("a net whose forces do not cancel, whose load grows or whose rim moves does not rest") {
   Model model = tests::net<CableBatch>(tests::wire, 0.1, 9);
   SECTION("weight") {
-    model.gravity = Vector3(0, 0, -9.81);
+    weigh(model, Vector3(0, 0, -9.81));
   }
   SECTION("a load that grows from zero") {
     model.loads = {tests::load(40, {0, 0, 1})};

@@ -39,4 +39,14 @@ TEST_CASE("supports that lead a node to different places are refused, with the n
   CHECK(held_directions(model).size() == 3);
   model.supports[0].history.points = {{0, 0}, {1, 1}};
   CHECK_THROWS_WITH(held_directions(model), Contains("along z"));
+  // A table says nothing of a direction that does not move: two that hold it still agree, whatever their tables.
+  model.supports[0].displacement = model.supports[1].displacement = Vector3::Zero();
+  CHECK(held_directions(model).size() == 3);
+}
+
+TEST_CASE("a node counts as held where supports take all of its directions, by one or by several") {
+  Model model = tests::chain<BarBatch>(tests::steel, 1, 2);
+  model.supports = {tests::fixed({0}), tests::fixed({1, 2}, {true, true, false}),
+                    tests::fixed({1}, {false, false, true})};
+  CHECK(held_nodes(model) == std::vector<bool>{true, true, false});
 }

@@ -41,8 +41,8 @@ Model sheared_panel() {
   model.parts.push_back(
       {"film", TensionFieldBatch({2.5e-5, 1420, Vector3::UnitX()}, film, triangles, model.reference), {}});
   model.supports = {low, high, plane};
-  model.damping.mass = 200;
   lump_masses(model);
+  model.damping_rates.assign(model.node_masses.size(), 200);
   return model;
 }
 
@@ -88,8 +88,8 @@ TEST_CASE("a spectral radius of 0 removes what the step cannot resolve, from the
 TEST_CASE("halving the implicit step divides its error by four") {
   const auto middle_after = [](int steps) {
     Model model = tests::net<CableBatch>(tests::wire, 0.1, 5);
-    model.gravity = Vector3(0, 0, -9.81);
-    model.damping = {.mass = 10, .stiffness = 1e-5};
+    weigh(model, Vector3(0, 0, -9.81));
+    tests::damp(model, {.mass = 10, .stiffness = 1e-5});
     Assembly assembly(model);
     const double length = 8e-3;
     ImplicitSolver solver(model, assembly,
@@ -119,7 +119,7 @@ TEST_CASE("Newton converges quadratically in an implicit step") {
 TEST_CASE("implicit and explicit integration agree on a net that falls into its prestress") {
   Model model = tests::net<CableBatch>(tests::wire, 0.1, 7);
   model.loads = {tests::load(24, {0, 0, -50})};
-  model.damping.mass = 20;
+  model.damping_rates.assign(model.node_masses.size(), 20);
   const double length = 0.01;
   Assembly assembly(model);
   ExplicitSolver explicit_solver(model, assembly, 2e-6);
@@ -133,8 +133,8 @@ TEST_CASE("implicit and explicit integration agree on a net that falls into its 
 
 TEST_CASE("an implicit run closes its energy balance with loads, gravity, damping and moving supports") {
   Model model = tests::net<CableBatch>(tests::wire, 0.1, 7);
-  model.damping = {.mass = 40, .stiffness = 2e-6};
-  model.gravity = Vector3(0, 1, -9.81);
+  tests::damp(model, {.mass = 40, .stiffness = 2e-6});
+  weigh(model, Vector3(0, 1, -9.81));
   model.loads = {tests::load(24, {5, 0, -20})};
   model.supports[0].displacement = Vector3(0.01, 0, 0.02);
   model.supports[0].history.points = {{0, 0}, {0.005, 0}, {0.03, 1}};

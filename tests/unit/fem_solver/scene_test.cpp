@@ -330,3 +330,28 @@ TEST_CASE("a set of nodes may not take the name of a part") {
           "density: 7850 kg/m^3, youngs_modulus: 10 GPa}\n  node_sets: {rope: {at: [0 m, 0 m, 0 m]}}\n"),
       Catch::Contains("take another"));
 }
+
+TEST_CASE("bars in a chain that nothing holds sideways are refused, and held, taut or braced ones are not") {
+  const std::string chain =
+      "  parts: {chain: {polyline: {points: [[0, 0, 0], [4, 0, 0]], divisions: 2}, bar: {area: 1 cm^2, "
+      "density: 8000, "
+      "youngs_modulus: 100 GPa";
+  CHECK_THAT(complaint(chain + "}}}\n"),
+             Catch::Contains("two bars without prestress meet at node 1 of chain at (2, 0, 0) m"));
+  CHECK(complaint(chain + ", prestress: 1 MPa}}}\n") == "no complaint");
+  CHECK(complaint(chain + "}}}\n  supports: [{at: [2, 0, 0], fix: y}]\n") == "no complaint");
+  CHECK(complaint(chain + "}}, stay: {polyline: {points: [[2, 0, 0], [2, 1, 0]]}, " + cable +
+                  "}}\n  weld: {tolerance: 1 mm}\n") == "no complaint");
+}
+
+TEST_CASE("a rope's own ends are welded to what is there, as its scene welds") {
+  const std::string parts =
+      "  parts:\n    net: {square_net: {corner: [0, 0, 0], size: [3, 3], pitch: 1}, " + cable +
+      "}\n    post: {polyline: {points: [[-1, 0, 0], [-1, 0, 2]]}, " + cable +
+      "}\n    rope: {through: {nodes: [net.edge_south], from: [-1.0005, 0, 0], to: [4, 0, 0]}, " + cable +
+      "}\n";
+  const Structure apart(scene(parts)), welded(scene(parts + "  weld: {tolerance: 1 mm}\n"));
+  CHECK(apart.model().nodes() == 16 + 2 + 2);
+  CHECK(welded.model().nodes() == 16 + 2 + 1);
+  CHECK(welded.model().node_sets.at("rope.start") == welded.model().node_sets.at("post.start"));
+}

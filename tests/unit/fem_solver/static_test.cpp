@@ -30,9 +30,7 @@ double left_over(const Run& run) {
   Assembly(run.model).internal_force(run.solver.displacement(), force);
   for (const auto& load : run.model.loads)
     for (const Index node : load.nodes) Vector3::Map(&force[3 * node]) += load.force;
-  if (run.model.gravity)
-    for (Index node = 0; node < run.model.nodes(); ++node)
-      Vector3::Map(&force[3 * node]) += run.model.node_masses[node] * *run.model.gravity;
+  for (std::size_t i = 0; i < run.model.weight.size(); ++i) force[i] += run.model.weight[i];
   for (const auto& support : run.model.supports)
     for (const Index node : support.nodes)
       for (int c = 0; c < 3; ++c)
@@ -93,7 +91,7 @@ TEST_CASE("a cable net without prestress finds its shape under load though its f
   AxialPart unstressed = stiff_wire;
   unstressed.section.prestress = 0;
   Model model = tests::net<CableBatch>(unstressed, 0.1, 5);
-  model.gravity = Vector3(0, 0, -9.81);
+  weigh(model, Vector3(0, 0, -9.81));
   Run run(std::move(model), {.end = 1, .step = 1});
   run.solver.advance(0, 1);
   CHECK(run.solver.reports().front().shifted > 0);

@@ -43,7 +43,7 @@ std::string chain(const std::string& element, const std::string& method) {
          "fix: xyz}\n" +
          method;
 }
-const std::string own = "bar: {area: 10 mm^2, density: 7850 kg/m^3, youngs_modulus: 1 GPa}",
+const std::string own = "bar: {area: 10 mm^2, density: 7850 kg/m^3, youngs_modulus: 1 GPa, prestress: 10 Pa}",
                   users = "user_element: {name: bar, parameters: [1e4, 0.0785]}";
 
 std::vector<double> displacement_after(const std::string& structure, double end) {

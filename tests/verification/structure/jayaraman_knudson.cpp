@@ -37,7 +37,7 @@ TEST_CASE("a loaded catenary of many cables comes to rest at the exact cable's d
   for (Index i = 0; i < 2 * divisions; ++i) segments.push_back({i, i + 1});
   tests::add_part<CableBatch>(model, "cable", cable, std::move(segments));
   model.supports = {tests::fixed({0, 2 * divisions})};
-  model.gravity = Vector3(0, 0, -g);
+  weigh(model, Vector3(0, 0, -g));
   model.loads = {tests::load(divisions, {0, 0, -8000 * pound})};
   model.loads[0].history.points = {{0.5, 0}, {1, 1}};
   Assembly assembly(model);

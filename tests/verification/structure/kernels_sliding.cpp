@@ -66,7 +66,7 @@ class CablesAndSlider {
         position_(Eigen::VectorXd::Zero(3 * (segments + 2))),
         velocity_(position_),
         inverse_mass_(position_.size()),
-        slide_({static_cast<std::size_t>(segments + 1), 1}) {
+        slide_(network(static_cast<std::size_t>(segments + 1))) {
     for (Eigen::Index k = 0; k <= segments; ++k) position_[3 * k] = static_cast<double>(k) * length_;
     position_.tail<3>() = start;
     velocity_.tail<3>() = velocity;
@@ -74,6 +74,7 @@ class CablesAndSlider {
     inverse_mass_.head<3>().setZero();
     inverse_mass_.segment<3>(3 * segments).setZero();
     inverse_mass_.tail<3>().setConstant(1 / slider_mass);
+    slide_.search({span_of(position_), {&segment_, 1}});
   }
 
   /// Time that a wave takes along a segment: the step limit of the rope alone (s).
@@ -93,12 +94,17 @@ class CablesAndSlider {
     }
     const Eigen::VectorXd before = velocity_;
     velocity_ += step * inverse_mass_.cwiseProduct(force);
-    REQUIRE(slide_.project({span_of(position_), span_of(inverse_mass_), step},
-                           {velocity_.data(), static_cast<std::size_t>(velocity_.size())}));
+    const SlideProjection::Place now{span_of(position_), {&segment_, 1}};
+    REQUIRE(slide_.stop(now, span_of(inverse_mass_),
+                        {velocity_.data(), static_cast<std::size_t>(velocity_.size())}));
     for (Eigen::Index i = 0; i < before.size(); ++i)
       if (inverse_mass_[i] > 0) energy += 0.5 * before[i] * velocity_[i] / inverse_mass_[i];
     position_ += step * velocity_;
-    largest_violation_ = std::max(largest_violation_, slide_.largest_violation());
+    Eigen::VectorXd moves(position_.size());
+    REQUIRE(
+        slide_.put_back(now, span_of(inverse_mass_), {moves.data(), static_cast<std::size_t>(moves.size())}));
+    position_ += moves;
+    largest_violation_ = std::max(largest_violation_, slide_.contacts()[0].violation);
     return energy;
   }
 
@@ -106,11 +112,18 @@ class CablesAndSlider {
   double largest_violation() const { return largest_violation_; }
 
  private:
+  static SlideNetwork network(std::size_t rope_nodes) {
+    SlideNetwork network{.nodes = rope_nodes + 1, .ropes = {{}}, .sliders = {{rope_nodes, 0}}};
+    for (std::size_t k = 0; k < rope_nodes; ++k) network.ropes[0].push_back(k);
+    return network;
+  }
+
   static constexpr double rope_mass = 0.5;  // kg
   Eigen::Index segments_;
   double length_;
   Eigen::VectorXd position_, velocity_, inverse_mass_;  // rope nodes, then the slider
   SlideProjection slide_;
+  double segment_ = 0;
   double largest_violation_ = 0;
 };
 

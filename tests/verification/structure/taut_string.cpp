@@ -16,7 +16,7 @@ TEST_CASE("a point load on a taut string settles where P = 2 N d/l with the elem
       {.section = {.area = area, .youngs_modulus = E, .prestress = S}, .density = 7850}, 2 * a, 2);
   model.supports = {tests::fixed({0, 2})};
   model.loads = {tests::load(1, {0, 0, -P})};
-  model.damping.mass = 200;
+  model.damping_rates.assign(model.node_masses.size(), 200);
   Assembly assembly(model);
   ExplicitSolver solver(model, assembly, 1e-4);
   const double step = 1e-4;
