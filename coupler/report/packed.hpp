@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+/// Numbers as text that takes little room in a page: whole numbers, little-endian, in base64.
+namespace talus::report {
+
+std::string base64(std::span<const std::uint8_t> bytes);
+
+std::string packed(std::span<const std::uint16_t> numbers);
+std::string packed(std::span<const std::uint32_t> numbers);
+std::string packed(std::span<const float> numbers);
+
+/// From the least to the largest value of a list.
+struct Range {
+  double low = 0, high = 0;
+  /// How far apart two neighbouring ones of `steps + 1` values are that fill the range.
+  double step(int steps) const { return (high - low) / steps; }
+};
+
+/// Nothing has the range from 0 to 0.
+Range range_of(std::span<const double> values);
+
+/// The nearest of the `steps + 1` values that fill the range, by its number from 0 on.
+std::uint32_t quantised(double value, const Range& range, int steps);
+
+}  // namespace talus::report
