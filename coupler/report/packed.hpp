@@ -17,6 +17,10 @@ std::string packed(std::span<const float> numbers);
 /// From the least to the largest value of a list.
 struct Range {
   double low = 0, high = 0;
+  void take(double value) {
+    low = value < low ? value : low;
+    high = value > high ? value : high;
+  }
   /// How far apart two neighbouring ones of `steps + 1` values are that fill the range.
   double step(int steps) const { return (high - low) / steps; }
 };

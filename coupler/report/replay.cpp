@@ -24,6 +24,8 @@ using nlohmann::json;
 constexpr std::int64_t fewest_frames = 24;  // before cells are left out for more
 constexpr int fine = 65535, coarse = 254;   // steps of a position and of a colour
 constexpr std::uint8_t broken = 255;        // the colour of a cell that is there no more
+constexpr Range nothing_yet{std::numeric_limits<double>::max(), std::numeric_limits<double>::lowest()};
+constexpr std::array<Range, 3> empty_box{nothing_yet, nothing_yet, nothing_yet};
 
 /// What colours cells; stresses of a sheet as the larger principal one.
 struct Colouring {
@@ -52,17 +54,25 @@ std::vector<double> colour_values(const FieldReader& fields, const Drawing& draw
   return first;
 }
 
-/// Boundaries that are moved by a structure lie on it: drawn once, as the part of the structure, which has more to
-/// show. Groups by the group they lie on.
+/// The longest side of the box about some positions.
+double size_of(const std::vector<double>& positions) {
+  std::array<Range, 3> box = empty_box;
+  for (std::size_t i = 0; i < positions.size(); ++i) box[i % 3].take(positions[i]);
+  double size = 0;
+  for (const Range& range : box) size = std::max(size, range.high - range.low);
+  return size;
+}
+
+/// Boundaries that are moved by a structure lie on it, but for what moved since their last exchange: drawn once, as the
+/// part of the structure, which has more to show. Groups by the group they lie on.
 std::map<std::string, std::string> doubles(const FieldReader& fields) {
   std::map<std::string, std::string> found;
   const auto same = [&](const GroupDescription& a, const GroupDescription& b) {
     if (a.kind != b.kind || a.nodes != b.nodes || a.cells != b.cells) return false;
     for (const std::int64_t frame : {std::int64_t{0}, fields.frames() - 1}) {
       const auto one = fields.read(a, "position", frame), other = fields.read(b, "position", frame);
-      const Range range = range_of(one);
-      if (!std::ranges::equal(one, other,
-                              [&](double x, double y) { return std::abs(x - y) <= range.step(fine); }))
+      const double close = 1e-3 * size_of(one);
+      if (!std::ranges::equal(one, other, [&](double x, double y) { return std::abs(x - y) <= close; }))
         return false;
     }
     return true;
@@ -119,14 +129,10 @@ std::vector<Drawing> affordable_drawings(const std::vector<const GroupDescriptio
 void add_positions(json& result, const FieldReader& fields, const Drawing& drawing,
                    const std::vector<std::int64_t>& frames) {
   std::vector<std::vector<double>> positions;
-  std::array<Range, 3> box;
-  box.fill({std::numeric_limits<double>::max(), std::numeric_limits<double>::lowest()});
+  std::array<Range, 3> box = empty_box;
   for (const auto frame : frames) {
     positions.push_back(at_nodes(drawing, fields.read(*drawing.group, "position", frame), 3));
-    for (std::size_t i = 0; i < positions.back().size(); ++i) {
-      Range& range = box[i % 3];
-      range = {std::min(range.low, positions.back()[i]), std::max(range.high, positions.back()[i])};
-    }
+    for (std::size_t i = 0; i < positions.back().size(); ++i) box[i % 3].take(positions.back()[i]);
   }
   if (std::ranges::all_of(positions, [&](const auto& frame) { return frame == positions.front(); }))
     positions.resize(1);
@@ -181,13 +187,16 @@ json add_colours(json& groups, const FieldReader& fields, const std::vector<Draw
     }
   json scales = json::array();
   for (const Colouring& colouring : colourings) {
-    Range scale;  // with zero in it
+    Range scale = nothing_yet;
     for (const Colours& colours : all) {
-      if (colours.colouring != &colouring) continue;
+      if (colours.colouring != &colouring || colours.values.empty()) continue;
       const Range range = range_of(colours.values);
-      scale = {std::min(scale.low, range.low), std::max(scale.high, range.high)};
+      scale.take(range.low);
+      scale.take(range.high);
     }
-    if (scale.high == scale.low) continue;
+    // What hardly differs is not to look as if it did.
+    if (scale.high - scale.low <= 1e-3 * std::abs(scale.high)) scale.take(0);
+    if (scale.high <= scale.low) continue;
     for (const Colours& colours : all) {
       if (colours.colouring != &colouring) continue;
       std::vector<std::uint8_t> numbers;

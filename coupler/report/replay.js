@@ -12,7 +12,8 @@ const showReplay = (page, fields, renderer, summary) => {
   const colourings = new Map([["part", null]]);
   fields.colours.forEach((scale, index) => {
     const low = scale.low, high = scale.low + 254 * scale.step;
-    colourings.set(scale.name, { of: group => group.colour === index, low, high, unit: scale.unit, scale, factors: () => [1, 1] });
+    // A prestressed net never gets near zero: its colours begin at its least force.
+    colourings.set(scale.name, { of: group => group.colour === index, low, high, base: Math.max(0, low), unit: scale.unit, scale, factors: () => [1, 1] });
     const limited = fields.groups.filter(group => group.colour === index && scale.unit === "N" && (limits.tension(group.name) || limits.compression(group.name)));
     if (!limited.length) return;
     const factors = group => [limits.tension(group.name) ? 1 / limits.tension(group.name) : 0, limits.compression(group.name) ? 1 / limits.compression(group.name) : 0];
@@ -39,8 +40,8 @@ const showReplay = (page, fields, renderer, summary) => {
     const width = widthOf(group) * sharpness, plain = { colour: chosen && roleOf(group) === "structure" ? quiet : partColour(group), alpha, width, colouring: 0 };
     if (!chosen || !chosen.of(group)) return plain;
     if (chosen.reach) return { ...plain, alpha: Math.max(alpha, 0.75), colouring: 2, reach: chosen.reach };
-    const full = Math.max(-chosen.low, chosen.high);
-    return { ...plain, alpha: Math.max(alpha, 0.75), colouring: 1, scale: [chosen.scale.low, chosen.scale.step], factors: chosen.factors(group).map(factor => factor / full) };
+    const base = chosen.base ?? 0, full = Math.max(-chosen.low, chosen.high - base);
+    return { ...plain, alpha: Math.max(alpha, 0.75), colouring: 1, scale: [chosen.scale.low - base, chosen.scale.step], factors: chosen.factors(group).map(factor => factor / full) };
   };
 
   // ---- the eye ----
@@ -89,15 +90,15 @@ const showReplay = (page, fields, renderer, summary) => {
     const chosen = colourings.get(state.colour);
     if (!chosen) return;
     const { unit, factor } = chosen.unit ? units.suited(chosen.unit, Math.max(-chosen.low, chosen.high)) : { unit: "%", factor: 100 };
-    const full = Math.max(-chosen.low, chosen.high), width = Math.min(18 * letters, 0.6 * canvas.width), x = letters, y = canvas.height - 2.2 * letters;
+    const base = chosen.base ?? 0, full = Math.max(-chosen.low, chosen.high - base), width = Math.min(18 * letters, 0.6 * canvas.width), x = letters, y = canvas.height - 2.2 * letters;
     const place = value => x + width * (value - chosen.low) / (chosen.high - chosen.low);
     for (let i = 0; i < width; ++i) {
-      const value = (chosen.low + (chosen.high - chosen.low) * i / width) / full;
+      const value = (chosen.low - base + (chosen.high - chosen.low) * i / width) / full;
       pen.fillStyle = rampColour(value);
       pen.fillRect(x + i, y, 1.5, 0.7 * letters);
     }
     write(`${state.colour} (${unit})`, x, y - 0.5 * letters, letters);
-    const marks = chosen.low < -0.15 * chosen.high ? [chosen.low, 0, chosen.high] : [Math.max(0, chosen.low), chosen.high / 2, chosen.high];
+    const marks = chosen.low < -0.15 * chosen.high ? [chosen.low, 0, chosen.high] : [chosen.low, (chosen.low + chosen.high) / 2, chosen.high];
     const aligned = marks.map((value, i) => i === 0 ? "left" : i === marks.length - 1 ? "right" : "center");
     marks.forEach((value, i) => write(number(value * factor, 3), place(value), y + 1.8 * letters, 0.9 * letters, aligned[i]));
   };
@@ -266,7 +267,7 @@ const showReplay = (page, fields, renderer, summary) => {
   const thinned = fields.groups.filter(group => group.stride > 1).map(group => `one of ${group.stride} cells of ${group.name}`);
   if (thinned.length) said.push(`Drawn: ${thinned.join(", ")}; all cells would make the page too large.`);
   const doubles = Object.entries(fields.doubles).map(([name, below]) => `${name} lies on ${below}`);
-  if (doubles.length) said.push(doubles.join(", ") + ": drawn once.");
+  if (doubles.length) said.push(doubles.join(", ") + ", to a thousandth of its size: drawn once.");
   if (fields.groups.some(group => group.breaks)) said.push("Broken cells vanish.");
   if (fields.groups.some(group => group.plane)) said.push("A plane has no end: a piece of it is drawn.");
   if (limits && colourings.has("utilisation")) said.push("Utilisation is tension over the breaking load, and compression (negative) over the buckling load.");
