@@ -22,12 +22,12 @@ std::optional<double> largest_length(const core::FieldReader& fields, const std:
   return largest;
 }
 
-std::int64_t peak_frame(const core::FieldReader& fields) {
-  std::int64_t peak = 0;
+std::optional<std::int64_t> peak_frame(const core::FieldReader& fields) {
+  std::optional<std::int64_t> peak;
   double most = 0;
   for (std::int64_t frame = 0; frame < fields.frames(); ++frame) {
     const auto displacement = largest_length(fields, "displacement", frame);
-    if (!displacement) return 0;
+    if (!displacement) return std::nullopt;
     if (*displacement > most) most = *displacement, peak = frame;
   }
   return peak;
@@ -49,8 +49,9 @@ Instants instants_of(const core::FieldReader& fields) {
 }
 
 std::vector<std::int64_t> chosen_frames(std::int64_t frames, std::int64_t most, const Instants& instants) {
-  std::set<std::int64_t> chosen{0, frames - 1, instants.peak};
-  if (instants.contact) chosen.insert(*instants.contact);
+  std::set<std::int64_t> chosen{0, frames - 1};
+  for (const auto& instant : {instants.peak, instants.contact})
+    if (instant) chosen.insert(*instant);
   const std::int64_t even =
       frames <= most ? frames
                      : std::max<std::int64_t>(2, most - std::ssize(chosen) + 2);  // both ends are even ones

@@ -10,7 +10,7 @@ namespace talus::report {
 
 /// Frames of a result that a reader of its page looks for.
 struct Instants {
-  std::int64_t peak = 0;                ///< where the structure is displaced most; the first where nothing is
+  std::optional<std::int64_t> peak;     ///< where the structure is displaced most
   std::optional<std::int64_t> contact;  ///< the first with a contact force on the boundary
 };
 

@@ -3,7 +3,7 @@ const showReplay = (page, fields, renderer, summary) => {
   const times = fields.times, last = times.length - 1;
   const corner = { centre: fields.box.low.map((value, k) => (value + fields.box.high[k]) / 2) };
   const radius = Math.hypot(...fields.whole.high.map((value, k) => Math.max(Math.abs(value - corner.centre[k]), Math.abs(fields.whole.low[k] - corner.centre[k])))) || 1;
-  const state = { time: times[fields.peak], playing: false, slowness: 1, colour: "part", hidden: new Set(), touched: false, eye: null };
+  const state = { time: times[fields.peak ?? 0], playing: false, slowness: 1, colour: "part", hidden: new Set(), touched: false, eye: null };
 
   const { roleOf, families, familyOf, partColour } = fields;
 
