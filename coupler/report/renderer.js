@@ -173,7 +173,7 @@ const makeRenderer = (() => {
     const canvas = document.createElement("canvas");
     const gl = canvas.getContext("webgl2", { antialias: true, alpha: false, powerPreference: "low-power" });
     if (!gl) return null;
-    let programs, parts;
+    let programs, parts, latest = null;
     const begin = () => {
       programs = Object.fromEntries(Object.entries(shaders).map(([kind, sources]) => [kind, compiled(gl, sources)]));
       gl.pixelStorei(gl.UNPACK_ALIGNMENT, 1);
@@ -182,7 +182,7 @@ const makeRenderer = (() => {
     begin();
     // A phone takes the context away when it needs the memory, and gives it back.
     canvas.addEventListener("webglcontextlost", event => event.preventDefault());
-    canvas.addEventListener("webglcontextrestored", begin);
+    canvas.addEventListener("webglcontextrestored", () => { begin(); if (latest) draw(...latest); });
 
     const drawGroup = (group, part, style, picture) => {
       const { program, at } = programs[group.kind];
@@ -218,6 +218,7 @@ const makeRenderer = (() => {
     };
     /** Faces that let through what is behind them come last and hide nothing. */
     const draw = (target, picture) => {
+      latest = [target, picture];
       if (canvas.width !== target.width || canvas.height !== target.height) { canvas.width = target.width; canvas.height = target.height; }
       gl.viewport(0, 0, canvas.width, canvas.height);
       gl.clearColor(1, 1, 1, 1);
