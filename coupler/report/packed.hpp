@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -24,6 +26,10 @@ struct Range {
   /// How far apart two neighbouring ones of `steps + 1` values are that fill the range.
   double step(int steps) const { return (high - low) / steps; }
 };
+
+/// To take values into.
+constexpr Range nothing_yet{std::numeric_limits<double>::max(), std::numeric_limits<double>::lowest()};
+constexpr std::array<Range, 3> empty_box{nothing_yet, nothing_yet, nothing_yet};
 
 /// Nothing has the range from 0 to 0.
 Range range_of(std::span<const double> values);

@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <limits>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 
 #include "core/output/field_reader.hpp"
+#include "coupler/report/colours.hpp"
+#include "coupler/report/doubles.hpp"
 #include "coupler/report/drawing.hpp"
 #include "coupler/report/instants.hpp"
 #include "coupler/report/packed.hpp"
@@ -22,75 +21,7 @@ using core::GroupDescription;
 using nlohmann::json;
 
 constexpr std::int64_t fewest_frames = 24;  // before cells are left out for more
-constexpr int fine = 65535, coarse = 254;   // steps of a position and of a colour
-constexpr std::uint8_t broken = 255;        // the colour of a cell that is there no more
-constexpr Range nothing_yet{std::numeric_limits<double>::max(), std::numeric_limits<double>::lowest()};
-constexpr std::array<Range, 3> empty_box{nothing_yet, nothing_yet, nothing_yet};
-
-/// What colours cells; stresses of a sheet as the larger principal one.
-struct Colouring {
-  const char *name, *unit, *field;
-};
-constexpr std::array<Colouring, 2> colourings{
-    {{"axial force", "N", "axial_force"}, {"stress of membranes", "Pa", "stress_xx"}}};
-
-/// Nothing where the group has no such colour.
-const Colouring* colouring_of(const GroupDescription& group) {
-  const auto found = std::ranges::find_if(
-      colourings, [&](const Colouring& colouring) { return has_field(group, colouring.field); });
-  return found == colourings.end() ? nullptr : &*found;
-}
-
-std::vector<double> colour_values(const FieldReader& fields, const Drawing& drawing,
-                                  const Colouring& colouring, std::int64_t frame) {
-  const auto values = [&](const char* name) {
-    return at_cells(drawing, fields.read(*drawing.group, name, frame));
-  };
-  std::vector<double> first = values(colouring.field);
-  if (colouring.field != std::string("stress_xx")) return first;
-  const auto yy = values("stress_yy"), xy = values("stress_xy");
-  for (std::size_t i = 0; i < first.size(); ++i)
-    first[i] = 0.5 * (first[i] + yy[i]) + std::hypot(0.5 * (first[i] - yy[i]), xy[i]);
-  return first;
-}
-
-/// The longest side of the box about some positions.
-double size_of(const std::vector<double>& positions) {
-  std::array<Range, 3> box = empty_box;
-  for (std::size_t i = 0; i < positions.size(); ++i) box[i % 3].take(positions[i]);
-  double size = 0;
-  for (const Range& range : box) size = std::max(size, range.high - range.low);
-  return size;
-}
-
-/// Boundaries that are moved by a structure lie on it, but for what moved since their last exchange: drawn once, as the
-/// part of the structure, which has more to show. Groups by the group they lie on.
-std::map<std::string, std::string> doubles(const FieldReader& fields) {
-  std::map<std::string, std::string> found;
-  const auto same = [&](const GroupDescription& a, const GroupDescription& b) {
-    if (a.kind != b.kind || a.nodes != b.nodes || a.cells != b.cells) return false;
-    for (const std::int64_t frame : {std::int64_t{0}, fields.frames() - 1}) {
-      const auto one = fields.read(a, "position", frame), other = fields.read(b, "position", frame);
-      const double close = 1e-3 * size_of(one);
-      if (!std::ranges::equal(one, other, [&](double x, double y) { return std::abs(x - y) <= close; }))
-        return false;
-    }
-    return true;
-  };
-  std::vector<const GroupDescription*> ordered;
-  for (const auto& group : fields.groups()) ordered.push_back(&group);
-  std::ranges::stable_partition(ordered, [](const auto* group) { return has_field(*group, "displacement"); });
-  std::vector<const GroupDescription*> drawn;
-  for (const auto* group : ordered) {
-    const auto below =
-        std::ranges::find_if(drawn, [&](const GroupDescription* other) { return same(*group, *other); });
-    if (below == drawn.end() || has_field(*group, "displacement"))
-      drawn.push_back(group);
-    else
-      found[group->name] = (*below)->name;
-  }
-  return found;
-}
+constexpr int fine = 65535;                 // steps of a position
 
 /// Bytes of text for so many bytes of numbers.
 std::int64_t in_base64(std::int64_t bytes) {
@@ -108,7 +39,7 @@ Cost cost_of(const std::vector<Drawing>& drawings) {
     cost.once += in_base64(std::ssize(drawing.cells) * (drawing.nodes.size() > fine ? 4 : 2));
     if (has_field(*drawing.group, "radius")) cost.once += in_base64(std::ssize(drawing.nodes) * 4);
     cost.each_frame += in_base64(std::ssize(drawing.nodes) * 6);
-    if (colouring_of(*drawing.group)) cost.each_frame += in_base64(drawing.cell_count());
+    if (is_coloured(*drawing.group)) cost.each_frame += in_base64(drawing.cell_count());
   }
   return cost;
 }
@@ -153,67 +84,6 @@ void add_cells(json& result, const Drawing& drawing) {
   const bool wide = drawing.nodes.size() > fine;
   result["wide"] = wide;
   result["cells"] = wide ? packed(drawing.cells) : packed(narrow);
-}
-
-/// What colours the cells of a group in all frames, and from where to where it goes.
-struct Colours {
-  std::size_t drawing = 0;
-  const Colouring* colouring = nullptr;
-  std::vector<double> values;
-  std::vector<bool> gone;  ///< a cell a frame, as values are
-};
-
-Colours colours_of(const FieldReader& fields, const Drawing& drawing, const Colouring& colouring,
-                   const std::vector<std::int64_t>& frames) {
-  Colours colours{.drawing = 0, .colouring = &colouring, .values = {}, .gone = {}};
-  for (const auto frame : frames) {
-    const auto values = colour_values(fields, drawing, colouring, frame);
-    colours.values.insert(colours.values.end(), values.begin(), values.end());
-    if (!has_field(*drawing.group, "broken")) continue;
-    for (const double state : at_cells(drawing, fields.read(*drawing.group, "broken", frame)))
-      colours.gone.push_back(state > 0.5);
-  }
-  return colours;
-}
-
-/// One scale for all groups that are coloured by the same quantity, so that equal colours are equal values.
-json add_colours(json& groups, const FieldReader& fields, const std::vector<Drawing>& drawings,
-                 const std::vector<std::int64_t>& frames) {
-  std::vector<Colours> all;
-  for (std::size_t i = 0; i < drawings.size(); ++i)
-    if (const Colouring* colouring = colouring_of(*drawings[i].group)) {
-      all.push_back(colours_of(fields, drawings[i], *colouring, frames));
-      all.back().drawing = i;
-    }
-  json scales = json::array();
-  for (const Colouring& colouring : colourings) {
-    Range scale = nothing_yet;
-    for (const Colours& colours : all) {
-      if (colours.colouring != &colouring || colours.values.empty()) continue;
-      const Range range = range_of(colours.values);
-      scale.take(range.low);
-      scale.take(range.high);
-    }
-    // What hardly differs is not to look as if it did.
-    if (scale.high - scale.low <= 1e-3 * std::abs(scale.high)) scale.take(0);
-    if (scale.high <= scale.low) continue;
-    for (const Colours& colours : all) {
-      if (colours.colouring != &colouring) continue;
-      std::vector<std::uint8_t> numbers;
-      for (std::size_t i = 0; i < colours.values.size(); ++i)
-        numbers.push_back(!colours.gone.empty() && colours.gone[i]
-                              ? broken
-                              : static_cast<std::uint8_t>(quantised(colours.values[i], scale, coarse)));
-      groups[colours.drawing]["colour"] = scales.size();
-      groups[colours.drawing]["values"] = base64(numbers);
-      groups[colours.drawing]["breaks"] = !colours.gone.empty();
-    }
-    scales.push_back({{"name", colouring.name},
-                      {"unit", colouring.unit},
-                      {"low", scale.low},
-                      {"step", scale.step(coarse)}});
-  }
-  return scales;
 }
 
 json drawn_group(const FieldReader& fields, const Drawing& drawing, const std::vector<std::int64_t>& frames) {

@@ -75,53 +75,7 @@ const showReplay = (page, fields, renderer, summary) => {
   page.appendChild(element("h2", "Replay"));
   const frame = page.appendChild(element("div", "", { class: "replay" }));
   const canvas = frame.appendChild(element("canvas", "", { tabindex: "0", role: "img", "aria-label": "The replay: drag to turn, with two fingers or the right button to shift and zoom" }));
-  const pen = canvas.getContext("2d");
-  const write = (text, x, y, size, align = "left", colour = "#1d2530") => {
-    pen.font = `${size}px system-ui, sans-serif`;
-    pen.textAlign = align;
-    pen.lineJoin = "round";
-    pen.lineWidth = size / 4;
-    pen.strokeStyle = "#ffffffcc";
-    pen.strokeText(text, x, y);
-    pen.fillStyle = colour;
-    pen.fillText(text, x, y);
-  };
-  const drawLegend = (letters) => {
-    const chosen = colourings.get(state.colour);
-    if (!chosen) return;
-    const { unit, factor } = chosen.unit ? units.suited(chosen.unit, Math.max(-chosen.low, chosen.high)) : { unit: "%", factor: 100 };
-    const base = chosen.base ?? 0, full = Math.max(-chosen.low, chosen.high - base), width = Math.min(18 * letters, 0.6 * canvas.width), x = letters, y = canvas.height - 2.2 * letters;
-    const place = value => x + width * (value - chosen.low) / (chosen.high - chosen.low);
-    for (let i = 0; i < width; ++i) {
-      const value = (chosen.low - base + (chosen.high - chosen.low) * i / width) / full;
-      pen.fillStyle = rampColour(value);
-      pen.fillRect(x + i, y, 1.5, 0.7 * letters);
-    }
-    write(`${state.colour} (${unit})`, x, y - 0.5 * letters, letters);
-    const marks = chosen.low < -0.15 * chosen.high ? [chosen.low, 0, chosen.high] : [chosen.low, (chosen.low + chosen.high) / 2, chosen.high];
-    const aligned = marks.map((value, i) => i === 0 ? "left" : i === marks.length - 1 ? "right" : "center");
-    marks.forEach((value, i) => write(number(value * factor, 3), place(value), y + 1.8 * letters, 0.9 * letters, aligned[i]));
-  };
-  const rampColour = value => {
-    const place = Math.min(1, Math.max(0, 0.5 + 0.5 * value)) * (makeRenderer.ramp.length - 1), i = Math.min(Math.floor(place), makeRenderer.ramp.length - 2);
-    const parts = [1, 3, 5].map(k => { const [a, b] = [i, i + 1].map(n => parseInt(makeRenderer.ramp[n].slice(k, k + 2), 16)); return Math.round(a + (b - a) * (place - i)); });
-    return `rgb(${parts})`;
-  };
-  /** The axes' directions, as they lie in the picture, at the lower right. */
-  const drawAxes = (eye, letters) => {
-    const x = canvas.width - 4 * letters, y = canvas.height - 4 * letters, length = 2.4 * letters;
-    ["x", "y", "z"].forEach((name, k) => {
-      const across = eye.right[k], up = eye.up[k], seen = Math.hypot(across, up);
-      pen.strokeStyle = pen.fillStyle = ["#b3261e", "#1b7a3d", "#1f6fb2"][k];
-      if (seen < 0.05) return;
-      pen.lineWidth = letters / 8;
-      pen.beginPath();
-      pen.moveTo(x, y);
-      pen.lineTo(x + length * across, y - length * up);
-      pen.stroke();
-      write(name, x + length * across + 0.7 * letters * across / seen, y - length * up - 0.7 * letters * up / seen + 0.35 * letters, letters, "center", pen.fillStyle);
-    });
-  };
+  const { write, drawLegend, drawAxes } = makeLegend(canvas);
   const sharpness = () => Math.min(2, Math.max(1, window.devicePixelRatio || 1));
   const fit = () => {
     const width = Math.round(frame.clientWidth * sharpness());
@@ -136,7 +90,8 @@ const showReplay = (page, fields, renderer, summary) => {
     const note = noteOf(state.time);
     write(`t = ${inTime(state.time)}`, letters, 2 * letters, 1.3 * letters);
     if (note) write(note, letters, 3.5 * letters, letters);
-    drawLegend(letters);
+    const chosen = colourings.get(state.colour);
+    if (chosen) drawLegend(state.colour, chosen, letters);
     drawAxes(eye, letters);
   };
   let waiting = false;
@@ -212,53 +167,22 @@ const showReplay = (page, fields, renderer, summary) => {
   });
 
   // ---- mouse, fingers, keys ----
-  const pointers = new Map();
-  const spread = () => { const [a, b] = [...pointers.values()]; return Math.hypot(a.x - b.x, a.y - b.y); };
-  const turnBy = (x, y) => {
-    state.eye.azimuth -= 0.008 * x;
-    state.eye.height = Math.min(Math.PI / 2, Math.max(-Math.PI / 2, state.eye.height + 0.008 * y));
+  const eyeMoves = {
+    turn(x, y) {
+      state.eye.azimuth -= 0.008 * x;
+      state.eye.height = Math.min(Math.PI / 2, Math.max(-Math.PI / 2, state.eye.height + 0.008 * y));
+    },
+    shift(x, y) { state.eye.shift = [state.eye.shift[0] + x / frame.clientWidth, state.eye.shift[1] + y / frame.clientWidth]; },
+    /** What lies under the middle of the picture stays there. */
+    zoom(factor) {
+      const zoom = Math.min(200, Math.max(0.2, state.eye.zoom * factor)), ratio = zoom / state.eye.zoom;
+      state.eye.zoom = zoom;
+      state.eye.shift = state.eye.shift.map(value => value * ratio);
+    },
+    reset() { lookFrom("turned"); },
+    toggle,
   };
-  const shiftBy = (x, y) => { state.eye.shift = [state.eye.shift[0] + x / frame.clientWidth, state.eye.shift[1] + y / frame.clientWidth]; };
-  /** What lies under the middle of the picture stays there. */
-  const zoomBy = factor => {
-    const zoom = Math.min(200, Math.max(0.2, state.eye.zoom * factor)), ratio = zoom / state.eye.zoom;
-    state.eye.zoom = zoom;
-    state.eye.shift = state.eye.shift.map(value => value * ratio);
-  };
-  canvas.addEventListener("pointerdown", event => {
-    if (event.isTrusted) canvas.setPointerCapture(event.pointerId);
-    pointers.set(event.pointerId, { x: event.clientX, y: event.clientY });
-  });
-  canvas.addEventListener("pointermove", event => {
-    const known = pointers.get(event.pointerId);
-    if (!known) return;
-    const x = event.clientX - known.x, y = event.clientY - known.y, before = pointers.size === 2 ? spread() : 0;
-    known.x = event.clientX;
-    known.y = event.clientY;
-    if (pointers.size === 2) {
-      if (before > 0) zoomBy(spread() / before);
-      shiftBy(x / 2, y / 2);
-    } else if (event.shiftKey || event.buttons & 2 || event.buttons & 4) shiftBy(x, y);
-    else turnBy(x, y);
-    drawSoon();
-  });
-  ["pointerup", "pointercancel"].forEach(name => canvas.addEventListener(name, event => pointers.delete(event.pointerId)));
-  canvas.addEventListener("contextmenu", event => event.preventDefault());
-  // The wheel scrolls the page until the picture was clicked.
-  canvas.addEventListener("wheel", event => {
-    if (document.activeElement !== canvas && !event.ctrlKey) return;
-    event.preventDefault();
-    zoomBy(Math.exp(-0.0015 * event.deltaY));
-    drawSoon();
-  }, { passive: false });
-  canvas.addEventListener("dblclick", () => { lookFrom("turned"); drawSoon(); });
-  const keys = { ArrowLeft: () => turnBy(-15, 0), ArrowRight: () => turnBy(15, 0), ArrowUp: () => turnBy(0, -15), ArrowDown: () => turnBy(0, 15), "+": () => zoomBy(1.2), "-": () => zoomBy(1 / 1.2), " ": toggle };
-  canvas.addEventListener("keydown", event => {
-    if (!keys[event.key]) return;
-    event.preventDefault();
-    keys[event.key]();
-    drawSoon();
-  });
+  listenToGestures(canvas, eyeMoves, drawSoon);
 
   // ---- what the picture leaves out ----
   const said = [];

@@ -19,6 +19,8 @@ extern const char* const report_page_template;
 extern const char* const units_script;
 extern const char* const frames_script;
 extern const char* const renderer_script;
+extern const char* const gestures_script;
+extern const char* const legend_script;
 extern const char* const replay_script;
 
 namespace {
@@ -91,7 +93,8 @@ json stacked(const fs::path& file) {
 /// The scripts stand before the body that calls them.
 std::string page_body() {
   std::string body;
-  for (const char* script : {units_script, frames_script, renderer_script, replay_script})
+  for (const char* script :
+       {units_script, frames_script, renderer_script, gestures_script, legend_script, replay_script})
     body += std::string("<script>\n") + script + "</script>\n";
   return body + report_page_template;
 }
