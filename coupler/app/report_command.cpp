@@ -10,7 +10,7 @@ namespace talus::coupler {
 
 void add_report(CLI::App& app, Chosen& chosen) {
   auto* command =
-      app.add_subcommand("report", "make one page of a result: curves, energies, limits, pictures");
+      app.add_subcommand("report", "make one page of a result: replay, curves, energies, limits, pictures");
   command->footer("Example:\n  talus report results/cable_net");
   const auto result = std::make_shared<std::filesystem::path>();
   command->add_option("RESULT", *result, "the folder of a result")->required();

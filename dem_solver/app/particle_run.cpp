@@ -79,8 +79,26 @@ std::unique_ptr<core::StageClock> clock_of(const RunScene& scene) {
   return std::make_unique<core::StageClock>(make_stage_clock());
 }
 
+void add_vector(std::vector<core::Fact>& facts, const std::string& name, const Triple<double>& vector,
+                const std::string& unit) {
+  facts.push_back({name + "_x_" + unit, vector.x});
+  facts.push_back({name + "_y_" + unit, vector.y});
+  facts.push_back({name + "_z_" + unit, vector.z});
+}
+
+/// Which way is down and where walls are: a picture of the result needs both, and no field holds them.
+void add_surroundings(const ParticlesScene& particles, const ParticleModel& model,
+                      std::vector<core::Fact>& facts) {
+  if (particles.gravity) add_vector(facts, "particles.gravity", model.gravity, "m_per_s2");
+  for (const Plane& plane : model.planes) {
+    add_vector(facts, "particles.planes." + plane.name + ".point", plane.point, "m");
+    add_vector(facts, "particles.planes." + plane.name + ".normal", plane.normal, "1");
+  }
+}
+
 NamedBodies named_bodies(const ParticlesScene& particles, const ParticleModel& model) {
   NamedBodies named{.spheres = {}, .rocks = {}, .facts = model.facts};
+  add_surroundings(particles, model, named.facts);
   for (const auto& [name, sphere] : particles.spheres)
     named.spheres.emplace_back(name, static_cast<Index>(named.spheres.size()));
   for (const auto& [name, rock] : particles.rocks)

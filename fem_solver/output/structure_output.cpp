@@ -47,6 +47,7 @@ StructureOutput::StructureOutput(const Model& model, Integrator& integrator, con
   if (clock_) clock_->describe(description_.probes);
   for (const auto& line : ledger_) description_.ledger.push_back(line.description);
   for (const auto& part : model.parts) description_.groups.push_back(group_of(part));
+  describe_gravity();
   if (integrator.state().record.empty()) return;
   record_tables_ = ForceRecord(model).tables();
   for (const auto& table : record_tables_)
@@ -55,6 +56,14 @@ StructureOutput::StructureOutput(const Model& model, Integrator& integrator, con
                                    .capacity = std::ssize(table.rows),
                                    .kind = core::TableKind::distribution,
                                    .rows = table.rows});
+}
+
+/// A picture of the result needs to know which way is down, and no field holds it.
+void StructureOutput::describe_gravity() {
+  if (!model_.gravity) return;
+  for (std::size_t c = 0; c < 3; ++c)
+    description_.facts.push_back({std::string("structure.gravity_") + "xyz"[c] + "_m_per_s2",
+                                  (*model_.gravity)[static_cast<Eigen::Index>(c)]});
 }
 
 void StructureOutput::choose_ledger_lines() {

@@ -33,6 +33,7 @@ class StructureOutput final : public core::OutputSource {
     core::LedgerDescription description;
     std::function<double(const EnergyBalance&)> value;
   };
+  void describe_gravity();
   void choose_ledger_lines();
 
   const Model& model_;

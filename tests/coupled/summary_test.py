@@ -43,6 +43,17 @@ class Facts(unittest.TestCase):
             self.assertGreater(facts[f"{rock}.filling_deviation_m"], 0.01)  # 0.05 m are wanted; a corner may be further away
             self.assertLess(facts[f"{rock}.filling_deviation_m"], 0.1)
 
+    def test_which_way_is_down_and_where_the_planes_are_is_in_the_summary(self):
+        def vector(facts, name, unit):
+            return [facts[f"{name}_{axis}_{unit}"] for axis in "xyz"]
+        facts = Run("examples/bouncing_spheres", "time: {end: 1 ms}\nparticles: {gravity: [1, 2, -3], planes: {floor: {point: [4 m, 5 m, 0 m]}}}\n",
+                    program="dem_solver").summary["facts"]
+        self.assertEqual(vector(facts, "particles.gravity", "m_per_s2"), [1, 2, -3])
+        self.assertEqual(vector(facts, "particles.planes.floor.point", "m"), [4, 5, 0])
+        self.assertEqual(vector(facts, "particles.planes.floor.normal", "1"), [0, 0, 1])
+        facts = Run("examples/hanging_net", "time: {end: 1 ms}\nstructure: {gravity: [0, -1, -2]}\n", program="fem_solver").summary["facts"]
+        self.assertEqual(vector(facts, "structure.gravity", "m_per_s2"), [0, -1, -2])
+
 
 if __name__ == "__main__":
     unittest.main(argv=sys.argv[:1])

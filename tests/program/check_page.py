@@ -41,7 +41,7 @@ def chromium(*arguments, page, width=SCREEN):
     if not program:
         sys.exit(77)
     with tempfile.TemporaryDirectory() as profile:
-        return subprocess.run([program, "--headless", "--no-sandbox", "--disable-gpu", "--enable-logging=stderr", f"--user-data-dir={profile}",
+        return subprocess.run([program, "--headless", "--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--enable-logging=stderr", f"--user-data-dir={profile}",
                                "--virtual-time-budget=5000", f"--window-size={width},2400", *arguments, page.absolute().as_uri()],
                               capture_output=True, text=True, timeout=120)
 
