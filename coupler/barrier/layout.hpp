@@ -10,6 +10,8 @@
 /// it; the ground is z = 0.
 namespace talus::barrier {
 
+inline constexpr double standard_gravity = 9.81;  ///< m/s^2
+
 struct Layout {
   std::vector<core::Vector3> feet, heads;  ///< m; of the posts
   std::vector<core::Vector3>

@@ -16,7 +16,6 @@ namespace {
 
 using core::Vector3;
 
-constexpr double standard_gravity = 9.81;     // m/s^2
 constexpr double steel_density = 7850;        // kg/m^3
 constexpr double rope_modulus = 100e9;        // Pa, on the metallic area
 constexpr double brake_mass_per_length = 10;  // kg/m, of one
@@ -35,19 +34,27 @@ std::string direction(const Vector3& p) {
 
 class Writer {
  public:
-  Writer(const LoadedSheet& loaded, const Layout& layout, const std::string& from)
-      : title_(loaded.title), sheet_(loaded.sheet), layout_(layout), net_(*find_net(sheet_.net.kind)) {
-    line(0, "# Written by `talus barrier {}`; edit the sheet, or this scene itself.", from);
+  /// @param stage null: the plain scene of the sheet
+  Writer(const LoadedSheet& loaded, const Layout& layout, const std::string& first_line, const Stage* stage)
+      : title_(loaded.title),
+        sheet_(loaded.sheet),
+        layout_(layout),
+        net_(*find_net(sheet_.net.kind)),
+        stage_(stage) {
+    line(0, "# {}", first_line);
     line(0, "# x along the row, y up the slope, z off it; the ground is z = 0.");
   }
 
   std::string text() {
     line(0, "title: {}", nlohmann::json(title_).dump());  // quoted as YAML takes it, too
     line(0, "");
-    line(0, "time: {{end: {} s, step: {} us}}  # test", number(sheet_.test.time), number(1e6 * step()));
+    line(0, "time: {{end: {} s, step: {} us}}  # test", number(stage_ ? stage_->end : sheet_.test.time),
+         number(1e6 * step()));
     structure();
-    particles();
-    coupling();
+    if (has_block()) {
+      particles();
+      coupling();
+    }
     output();
     return text_;
   }
@@ -59,6 +66,7 @@ class Writer {
     text_ += fmt::format(format, std::forward<Args>(args)...) + "\n";
   }
 
+  bool has_block() const { return !stage_ || stage_->has_block; }
   std::size_t posts() const { return layout_.feet.size(); }
   double step() const { return sheet_.test.step.value_or(sheet_.support_ropes.friction ? 8e-6 : 25e-6); }
   std::string gravity() const {
@@ -70,7 +78,9 @@ class Writer {
     line(0, "\nstructure:");
     line(1, "gravity: {}  # m/s^2; of a slope of {} deg", gravity(),
          number(sheet_.slope * 180 / std::numbers::pi));
-    if (sheet_.test.start == TestSheet::Start::hung)
+    if (stage_ && !stage_->start.empty())
+      line(1, "start: {}", stage_->start);
+    else if (!stage_ && sheet_.test.start == TestSheet::Start::hung)
       line(1, "start: {{relaxation: {{}}}}  # test.start: hung");
     line(1, "parts:");
     net();
@@ -169,8 +179,9 @@ class Writer {
     line(2, "# the net's edges beside the first and the last post, on ropes like the retaining ones");
     for (const std::size_t k : {0U, 1U}) {
       const std::size_t post = k == 0 ? 1 : posts();
-      line(2, "side_{}: {{through: {{nodes: [post_{}.end, net.edge_{}, post_{}.start]}}, sliding_cable: {}}}",
-           sides[k], post, k == 0 ? "west" : "east", post,
+      // A sheet's edges run round it: the western one down, the eastern one up.
+      line(2, "side_{}: {{through: {{nodes: [post_{}.{}, net.edge_{}, post_{}.{}]}}, sliding_cable: {}}}",
+           sides[k], post, k == 0 ? "end" : "start", k == 0 ? "west" : "east", post, k == 0 ? "start" : "end",
            k > 0
                ? "*side"
                : fmt::format(
@@ -303,8 +314,9 @@ class Writer {
     line(1, "every: 1 ms");
     line(1, "fields_every: 10 ms");
     line(1, "largest_forces: {{}}");
+    if (stage_) line(1, "final_state: {{}}");
     line(1, "probes:");
-    line(2, "block: {{rock: block}}");
+    if (has_block()) line(2, "block: {{rock: block}}");
     line(2, "middle: {{at: {}, part: net}}", point(nearest_net_node()));
     for (const char* part : {"net", "upper", "lower", "side_w", "side_e", "lateral_w", "lateral_e"})
       line(2, "{0}: {{part: {0}}}", part);
@@ -328,13 +340,21 @@ class Writer {
   const BarrierSheet& sheet_;
   const Layout& layout_;
   const Net& net_;
+  const Stage* stage_;
   std::string text_;
 };
 
 }  // namespace
 
 std::string scene_text(const LoadedSheet& loaded, const Layout& layout, const std::string& from) {
-  return Writer(loaded, layout, from).text();
+  return Writer(loaded, layout,
+                fmt::format("Written by `talus barrier {}`; edit the sheet, or this scene itself.", from),
+                nullptr)
+      .text();
+}
+
+std::string stage_text(const LoadedSheet& loaded, const Layout& layout, const Stage& stage) {
+  return Writer(loaded, layout, stage.purpose, &stage).text();
 }
 
 std::string assumptions(const BarrierSheet& sheet) {

@@ -1,6 +1,7 @@
 #include "fem_solver/output/structure_output.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 #include "fem_solver/output/part_fields.hpp"
 
@@ -58,12 +59,15 @@ StructureOutput::StructureOutput(const Model& model, Integrator& integrator, con
                                    .rows = table.rows});
 }
 
-/// A picture of the result needs to know which way is down, and no field holds it.
+/// A picture of the result needs to know which way is down, and no field holds it: weight over mass of the whole.
 void StructureOutput::describe_gravity() {
-  if (!model_.gravity) return;
-  for (std::size_t c = 0; c < 3; ++c)
-    description_.facts.push_back({std::string("structure.gravity_") + "xyz"[c] + "_m_per_s2",
-                                  (*model_.gravity)[static_cast<Eigen::Index>(c)]});
+  if (model_.weight.empty()) return;
+  const double mass = std::accumulate(model_.node_masses.begin(), model_.node_masses.end(), 0.0);
+  for (std::size_t c = 0; c < 3; ++c) {
+    double force = 0;
+    for (std::size_t i = c; i < model_.weight.size(); i += 3) force += model_.weight[i];
+    description_.facts.push_back({std::string("structure.gravity_") + "xyz"[c] + "_m_per_s2", force / mass});
+  }
 }
 
 void StructureOutput::choose_ledger_lines() {
