@@ -26,6 +26,9 @@ using core::Vector3;
 using nlohmann::json;
 
 constexpr double rest_time = 1e-3;  // s; of stages that only come to rest
+/// Crumpled nets come to rest slowly. What is left over, of the largest force, moves them by less than 1e-6 of the block's energy.
+constexpr double left_over_at_rest = 3e-4;
+constexpr int most_steps_to_rest = 1000000;
 /// Of the block's edge: the farthest point of its surface from its centre is sqrt(6)/4 of it.
 constexpr double reach_of_block = 0.62;
 
@@ -67,7 +70,8 @@ class Course {
   fs::path folder_of(const std::string& name) const { return test_.folder / name; }
   fs::path log_of(const std::string& name) const { return test_.folder / (name + ".log"); }
   static std::string after(const std::string& stage) {
-    return fmt::format("{{after: {{state: {}/structure_state.h5}}}}", stage);
+    return fmt::format("{{after: {{state: {}/structure_state.h5, steps: {}, tolerance: {}}}}}", stage, most_steps_to_rest,
+                       left_over_at_rest);
   }
 
   /// Writes the scene of a stage and runs it. @returns whether it finished
