@@ -23,7 +23,6 @@ namespace fs = std::filesystem;
 using core::Vector3;
 using nlohmann::json;
 
-
 const core::GroupDescription* group_of(const core::FieldReader& fields, const std::string& part) {
   for (const auto& group : fields.groups())
     if (group.name == part) return &group;
@@ -346,7 +345,9 @@ json measured(const fs::path& result, const BarrierSheet& sheet, const Layout& l
   const auto& path = curves.of("block.position_y_m");
   const double way =
       path[first] - *std::ranges::min_element(path);  // along the slope, from the first contact on
-  const double impact = 0.5 * mass * speed[first] * speed[first];
+  const double meets =
+      speed[first > 0 ? first - 1 : 0];  // the row before the touch: behind it the net has pushed
+  const double impact = 0.5 * mass * meets * meets;
 
   const FacingNodes facing = facing_nodes(fields, sheet, layout);
   const auto nominal = height_at(fields, facing, 0),
@@ -354,7 +355,7 @@ json measured(const fs::path& result, const BarrierSheet& sheet, const Layout& l
   json data{{"finished", summary.value("status", "") == "finished"},
             {"block_mass_kg", mass},
             {"energy_kJ", 1e-3 * impact},
-            {"speed_m_per_s", speed[first]},
+            {"speed_m_per_s", meets},
             {"first_contact_s", contact},
             {"stopped", stopped},
             {"largest_elongation_m", *peak},

@@ -81,6 +81,7 @@ class FromASheet(unittest.TestCase):
         short = "time: {end: 40 ms}\noutput: {every: 1 ms, fields_every: ~}\n"
         written, by_hand = Run(scene, short), Run("barriers/d1000", short)
         self.assertLess(written.energy_error(), 1e-3)
+        self.assertEqual([words for words in written.summary["warnings"] if "to and fro" in words], [])
         # Digits of coordinates and the filling of the block differ, so that waves in the net have other phases.
         for column, within in (("block.velocity_y_m_per_s", 2e-3), ("middle.displacement_y_m", 5e-2)):
             self.assertAlmostEqual(written.column(column)[-1] / by_hand.column(column)[-1], 1, delta=within, msg=column)
