@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 #include <utility>
 
 #include "core/errors.hpp"
@@ -27,36 +28,48 @@ SparseMatrix sparse(Index size, const std::vector<Eigen::Triplet<double>>& entri
   return matrix;
 }
 
-/// Every node may follow one rope, and no rope may follow another.
-void check_nodes(const Model& model) {
-  enum class Use { none, rope, slider };
-  std::vector<Use> uses(static_cast<std::size_t>(model.nodes()), Use::none);
-  for (const auto& slide : model.constrained_slides)
-    for (const Index node : slide.line.rope) uses[static_cast<std::size_t>(node)] = Use::rope;
+/// The slide whose sliders each node is one of; every node may follow one rope.
+std::vector<const ConstrainedSlide*> slides_of_nodes(const Model& model) {
+  std::vector<const ConstrainedSlide*> followed(static_cast<std::size_t>(model.nodes()), nullptr);
   for (const auto& slide : model.constrained_slides)
     for (const Index node : slide.line.sliders)
-      if (std::exchange(uses[static_cast<std::size_t>(node)], Use::slider) != Use::none)
+      if (std::exchange(followed[static_cast<std::size_t>(node)], &slide))
         throw core::ConfigError(
             name_of(slide, model, node) +
-            " takes part in another slide too, which implicit and static runs do not solve; take `penalty`");
-  for (const HeldDirection& h : held_directions(model)) {
-    const auto node = static_cast<Index>(h.direction / 3);
-    if (uses[h.direction / 3] != Use::slider) continue;
-    for (const auto& slide : model.constrained_slides)
-      if (std::ranges::find(slide.line.sliders, node) != slide.line.sliders.end())
-        throw core::ConfigError(
-            name_of(slide, model, node) +
-            " is supported, so it cannot follow a rope in implicit and static runs; take `penalty`");
-  }
+            " runs on another rope too, which implicit and static runs do not solve; take `penalty`");
+  for (const HeldDirection& h : held_directions(model))
+    if (const auto* slide = followed[h.direction / 3])
+      throw core::ConfigError(
+          name_of(*slide, model, static_cast<Index>(h.direction / 3)) +
+          " is supported, so it cannot follow a rope in implicit and static runs; take `penalty`");
+  return followed;
+}
+
+/// How many ropes carry a slide's rope in turn: 0 where none of its nodes runs on another.
+std::size_t depth_of(const ConstrainedSlide& slide, const Model& model,
+                     const std::vector<const ConstrainedSlide*>& followed, std::size_t below = 0) {
+  if (below > model.constrained_slides.size())
+    throw core::ConfigError(
+        "structure.slides." + slide.name +
+        ": its rope runs on ropes that run on it, in a circle, which implicit and static runs do not solve");
+  std::size_t depth = 0;
+  for (const Index node : slide.line.rope)
+    if (const auto* carrier = followed[static_cast<std::size_t>(node)])
+      depth = std::max(depth, 1 + depth_of(*carrier, model, followed, below + 1));
+  return depth;
 }
 
 }  // namespace
 
 SlideElimination::SlideElimination(const Model& model, const Equations& equations)
     : model_(model), equations_(equations) {
-  check_nodes(model);
+  const auto followed = slides_of_nodes(model);
+  std::vector<std::pair<std::size_t, const SlideLine*>> lines;  // those that others run on first
   for (const auto& slide : model.constrained_slides)
-    for (const Index node : slide.line.sliders) sliders_.push_back({&slide.line, node});
+    lines.emplace_back(depth_of(slide, model, followed), &slide.line);
+  std::ranges::stable_sort(lines, {}, [](const auto& line) { return line.first; });
+  for (const auto& [depth, line] : lines)
+    for (const Index node : line->sliders) sliders_.push_back({line, node});
 }
 
 Vector3 SlideElimination::position(std::span<const double> displacement, Index node) const {
@@ -105,32 +118,38 @@ void SlideElimination::follow(std::span<double> displacement) {
 void SlideElimination::settle(std::span<const double> displacement, std::span<double> residual) {
   followers_.clear();
   curvature_.clear();
-  for (Slider& slider : sliders_) {
+  for (Slider& slider : std::views::reverse(sliders_)) {  // what runs on a rope gives it its force first
     const Vector3 force = Vector3::Map(&residual[direction_of(slider.node, 0)]);
+    const std::size_t first = followers_.size();
     if (slider.corner) leave_corner(displacement, force, slider);
     if (slider.held) {
       add_followers_of_corner(slider);
-      continue;
+    } else {
+      const SlideConstraint here = constraint(displacement, slider);
+      add_followers(slider, here);
+      add_curvature(slider, here, force);
     }
-    const SlideConstraint here = constraint(displacement, slider);
-    add_followers(slider, here);
-    add_curvature(slider, here, force);
+    for (std::size_t k = first; k < followers_.size(); ++k) followers_[k].carry(residual);
   }
-  carry_over(residual);
 }
 
 /// To the neighbouring segment along which the force points away from the corner, if there is one.
 void SlideElimination::leave_corner(std::span<const double> displacement, const Vector3& force,
                                     Slider& slider) const {
-  const std::size_t corner = *slider.corner, last = slider.line->rope.size() - 1;
-  const Vector3 here = position(displacement, slider.line->rope[corner]);
+  const auto& rope = slider.line->rope;
+  const std::size_t last = rope.size() - 1;
+  const bool closed = rope.front() == rope.back();
+  const Vector3 here = position(displacement, rope[*slider.corner]);
   const auto force_towards = [&](std::size_t neighbour) {
-    return force.dot((position(displacement, slider.line->rope[neighbour]) - here).normalized());
+    return force.dot((position(displacement, rope[neighbour]) - here).normalized());
   };
-  const double onwards = corner < last ? force_towards(corner + 1) : 0;
-  const double back = corner > 0 ? force_towards(corner - 1) : 0;
+  const std::size_t start =
+      closed && *slider.corner == last ? 0 : *slider.corner;  // of the segment behind the corner
+  const std::size_t end = closed && *slider.corner == 0 ? last : *slider.corner;  // of the one before it
+  const double back = end > 0 ? force_towards(end - 1) : 0;
+  const double onwards = start < last ? force_towards(start + 1) : 0;
   slider.held = onwards <= 0 && back <= 0;
-  if (!slider.held) slider.segment = onwards >= back ? corner : corner - 1;
+  if (!slider.held) slider.segment = onwards >= back ? start : end - 1;
 }
 
 void SlideElimination::add_followers(const Slider& slider, const SlideConstraint& constraint) {
@@ -167,15 +186,17 @@ void SlideElimination::add_curvature(const Slider& slider, const SlideConstraint
         curvature_.emplace_back(equation(i), equation(j), -curvature(i, j));
 }
 
+void SlideElimination::Follower::carry(std::span<double> force) const {
+  for (std::size_t k = 0; k < count; ++k) force[masters[k]] += weights[k] * force[direction];
+  force[direction] = 0;
+}
+
 void SlideElimination::carry_over(std::span<double> force) const {
-  for (const auto& [direction, masters, weights, count] : followers_) {
-    for (std::size_t k = 0; k < count; ++k) force[masters[k]] += weights[k] * force[direction];
-    force[direction] = 0;
-  }
+  for (const Follower& follower : followers_) follower.carry(force);
 }
 
 void SlideElimination::lead(std::span<double> rates) const {
-  for (const auto& [direction, masters, weights, count] : followers_) {
+  for (const auto& [direction, masters, weights, count] : std::views::reverse(followers_)) {
     rates[direction] = 0;
     for (std::size_t k = 0; k < count; ++k) rates[direction] += weights[k] * rates[masters[k]];
   }
@@ -195,13 +216,20 @@ SparseMatrix SlideElimination::condense(const SparseMatrix& matrix) const {
   }
   for (Index k = 0; k < size; ++k)
     if (!follows[static_cast<std::size_t>(k)]) weights.emplace_back(k, k, 1);
-  const SparseMatrix L = sparse(size, weights), whole = matrix.selfadjointView<Eigen::Lower>();
+  const SparseMatrix one_by_one = sparse(size, weights), whole = matrix.selfadjointView<Eigen::Lower>();
+  const auto leans_on_followers = [&](const SparseMatrix& L) {
+    for (const Follower& follower : followers_)
+      if (L.col(equations_.of(follower.direction)).nonZeros() > 0) return true;
+    return false;
+  };
+  SparseMatrix L = one_by_one;
+  while (leans_on_followers(L)) L = SparseMatrix(L * one_by_one).pruned();  // a rope runs on another
   const SparseMatrix condensed = SparseMatrix(L.transpose() * whole) * L;
   return SparseMatrix(condensed.triangularView<Eigen::Lower>()) + sparse(size, ones);
 }
 
 SparseMatrix SlideElimination::condense_with_curvature(const SparseMatrix& tangent) const {
-  return condense(tangent) + sparse(equations_.count(), curvature_);
+  return condense(tangent + sparse(equations_.count(), curvature_));
 }
 
 double SlideElimination::gap(std::size_t slide, std::span<const double> displacement) const {

@@ -35,7 +35,8 @@ namespace talus::fem {
 /// quadratically ...", "a weight on a polygon rests in the corner ..." (slide_elimination_test.cpp).
 class SlideElimination {
  public:
-  /// @throws core::ConfigError where a slider is supported, or takes part in another slide
+  /// Ropes may run on ropes, in turn. @throws core::ConfigError where a slider is supported, or runs on two ropes, or
+  /// ropes run on each other in a circle
   SlideElimination(const Model& model, const Equations& equations);
 
   /// Puts every slider onto the nearest place of its rope.
@@ -73,6 +74,7 @@ class SlideElimination {
     std::array<std::size_t, 5> masters;
     std::array<double, 5> weights;
     std::size_t count;  ///< of masters
+    void carry(std::span<double> force) const;
   };
 
   Vector3 position(std::span<const double> displacement, Index node) const;
@@ -86,7 +88,7 @@ class SlideElimination {
 
   const Model& model_;
   const Equations& equations_;
-  std::vector<Slider> sliders_;
+  std::vector<Slider> sliders_;  ///< those of ropes that others run on first
   std::vector<Follower> followers_;
   std::vector<Eigen::Triplet<double>> curvature_;  ///< of the constraints, lower half, by equations (N/m)
 };

@@ -176,6 +176,11 @@ TEST_CASE("a slider that cannot follow is named before anything is solved") {
   }
   SECTION("on two ropes") {
     model.constrained_slides.push_back(model.constrained_slides.front());
-    CHECK_THAT(complaint(), Catch::Contains("takes part in another slide"));
+    CHECK_THAT(complaint(), Catch::Contains("runs on another rope too"));
+  }
+  SECTION("on ropes that run on each other") {
+    const SlideLine& edge = model.constrained_slides.front().line;
+    model.constrained_slides.push_back({"back", {{edge.sliders.front(), 4}, {edge.rope[1]}}});
+    CHECK_THAT(complaint(), Catch::Contains("in a circle"));
   }
 }
