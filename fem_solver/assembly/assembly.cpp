@@ -107,17 +107,19 @@ void Assembly::stiffness_product(const Configuration& at, std::span<const double
 
 void Assembly::damping_force(const Configuration& at, std::span<const double> velocity,
                              std::span<double> force) noexcept {
+  const double most = largest_stiffness_damping(model_);
   for_each_part(model_, at, [&](std::size_t p, const auto& batch, const Configuration& own) {
     const auto slots = slots_of(p);
-    const double seconds = model_.parts[p].stiffness_damping;
-    if (seconds > 0)
+    const double share = model_.parts[p].stiffness_damping / most;
+    if (share > 0)
       core::parallel_blocks(batch.size(), [&](core::Block elements, std::int64_t) {
         batch.damping_product(own, velocity, slots, elements);
       });
+    if (share == 1) return;  // as of all parts where the structure has one damping
     core::parallel_for(static_cast<std::int64_t>(slots.size()),
-                       [&](std::int64_t i) { slots[i] = seconds > 0 ? seconds * slots[i] : 0; });
+                       [&](std::int64_t i) { slots[i] = share > 0 ? share * slots[i] : 0; });
   });
-  gather(1, force);
+  gather(most, force);
 }
 
 void Assembly::stiffest_product(const Configuration& at, std::span<const double> direction,

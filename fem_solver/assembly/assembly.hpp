@@ -29,6 +29,7 @@ class Assembly {
   void stiffness_product(const Configuration& at, std::span<const double> direction,
                          std::span<double> product) noexcept;
   /// What resists strain rates: the stiffness damping of each part times its damping_product(), at every node (N).
+  /// @pre a part has stiffness damping
   void damping_force(const Configuration& at, std::span<const double> velocity,
                      std::span<double> force) noexcept;
   /// The same with everything taut that can be, for step limits.
