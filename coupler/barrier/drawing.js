@@ -87,7 +87,7 @@ const drawing = (() => {
   const front = (parent, data) => svg.place(parent, "The barrier from the front", 420, (picture, width) => {
     const layout = data.layout, { parts, feet, heads, lateral, anchors } = partsOf(layout), text = svg.labels(picture, width);
     const view = ([x, , z]) => [x, z], ground = anchors.length ? [] : [[0, 0, 0]];
-    const map = scaled([...parts.flatMap(part => part.points), ...feet.map(([x, y]) => [x, y, 0]), ...anchors, ...ground], view, width, { left: 12, right: 62, top: 12, bottom: 2 * line + 22 });
+    const map = scaled([...parts.flatMap(part => part.points), ...feet.map(([x, y]) => [x, y, 0]), ...anchors, ...ground], view, width, { left: 12, right: 62, top: 12, bottom: 2 * line + 22 }, 170);
     groundLine(picture, 2, width - 50, map.flat([0, 0])[1]);
     drawBlock(picture, layout, data.block?.edge_m, map);
     drawParts(picture, parts, map.at);
@@ -103,7 +103,7 @@ const drawing = (() => {
   const plan = (parent, data) => svg.place(parent, "The barrier from above, seen along the normal of the slope", 420, (picture, width) => {
     const layout = data.layout, { parts, feet, retaining, anchors } = partsOf(layout), text = svg.labels(picture, width);
     const view = ([x, y]) => [x, y];
-    const map = scaled([...parts.flatMap(part => part.points), ...anchors, [feet[0]?.[0] ?? 0, 0, 0]], view, width, { left: 12, right: 62, top: 10, bottom: line + 16 });
+    const map = scaled([...parts.flatMap(part => part.points), ...anchors, [feet[0]?.[0] ?? 0, 0, 0]], view, width, { left: 12, right: 62, top: 10, bottom: line + 16 }, 170);
     drawParts(picture, parts, map.at);
     drawBlock(picture, layout, data.block?.edge_m, map);
     drawAnchors(picture, anchors, map.at);
@@ -211,6 +211,9 @@ const drawing = (() => {
         const [x, y, u, v] = tail[i];
         svg.make(picture, "circle", { cx: x, cy: y, r: 3, fill: "#fff" });
         svg.arrow(picture, x, y, x + u, y + v, { stroke: ink.force, class: "force" });
+      });
+      tail.forEach(([x, y, u, v]) => {
+        for (let at = 0; at <= 1; at += 0.1) text.keepOff(x + at * u - 4, y + at * v - 4, x + at * u + 4, y + at * v + 4);
       });
       known.forEach((anchor, i) => {
         const [x, y, u, v] = tail[i], still = Math.hypot(u, v) < 0.5;

@@ -103,12 +103,12 @@ def opened(source, data, width=SCREEN, paper=False):
     return json.loads(seen.group(1).replace("&lt;", "<").replace("&gt;", ">").replace("&nbsp;", " ").replace("&amp;", "&"))
 
 
-def emptied(value, top=True):
+def emptied(value):
     """Every number and text null, every list and table of names as long as it is."""
     if isinstance(value, dict):
-        return {key: inner if key in ("name", "part", "kind", "test", "finished") else emptied(inner, False) for key, inner in value.items()}
+        return {key: inner if key in ("name", "part", "kind", "test", "finished") else emptied(inner) for key, inner in value.items()}
     if isinstance(value, list):
-        return [emptied(inner, False) for inner in value]
+        return [emptied(inner) for inner in value]
     return None
 
 
@@ -177,7 +177,7 @@ class BarrierPage(unittest.TestCase):
         self.assertGreater(seen["words"].count("not measured"), 100)
 
     def test_what_is_empty_is_said_in_a_sentence(self):
-        for data in (without_lists(self.data), {"title": "Nothing"}, {**self.data, "tests": [{"name": "mel"}]}, {**self.data, "tests": without_lists(self.data["tests"][0:0]) + [without_lists(self.data["tests"][0])]}):
+        for data in (without_lists(self.data), {"title": "Nothing"}, {**self.data, "tests": [{"name": "mel"}]}, {**self.data, "tests": [without_lists(self.data["tests"][0])]}):
             seen = opened(self.source, data)
             self.assertEqual(seen["problems"], [])
             for heading in ("Rules", "The barrier", "Envelope over all tests", "Not covered", "How sure", "Default, verify", "Replay"):
