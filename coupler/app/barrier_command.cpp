@@ -10,6 +10,7 @@
 #include "coupler/app/commands.hpp"
 #include "coupler/barrier/scene_text.hpp"
 #include "coupler/barrier/type_test.hpp"
+#include "coupler/barrier/type_test_page.hpp"
 
 namespace talus::coupler {
 
@@ -109,9 +110,9 @@ core::ExitCode test_barrier(const BarrierRequest& request) {
                               .time_limit = request.time_limit,
                               .tell = [](const std::string& line) { fmt::print(stderr, "{}\n", line); }});
   if (!report) return core::ExitCode::interrupted;
-  core::replace_file(request.test / "report.json", report->dump(1));
+  barrier::write_type_test_report(request.test, *report);
   print_verdict(*report);
-  fmt::print("{}\n", (request.test / "report.json").string());
+  fmt::print("{}\n", (request.test / "report.html").string());
   return core::ExitCode::success;
 }
 

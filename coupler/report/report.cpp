@@ -90,16 +90,15 @@ json stacked(const fs::path& file) {
   return result;
 }
 
-/// The scripts stand before the body that calls them.
-std::string page_body() {
-  std::string body;
+}  // namespace
+
+std::string replay_scripts() {
+  std::string elements;
   for (const char* script :
        {units_script, frames_script, renderer_script, gestures_script, legend_script, replay_script})
-    body += std::string("<script>\n") + script + "</script>\n";
-  return body + report_page_template;
+    elements += std::string("<script>\n") + script + "</script>\n";
+  return elements;
 }
-
-}  // namespace
 
 json report_data(const fs::path& result) {
   std::ifstream summary(result / "summary.json");
@@ -114,7 +113,8 @@ json report_data(const fs::path& result) {
 fs::path write_report(const fs::path& result) {
   const json data = report_data(result);
   const fs::path page = result / "report.html";
-  core::replace_file(page, page::make(page_body(), data.at("summary").value("title", "Result"), data));
+  core::replace_file(page, page::make(replay_scripts() + report_page_template,
+                                      data.at("summary").value("title", "Result"), data));
   return page;
 }
 

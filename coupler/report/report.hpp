@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
+#include <string>
 
 namespace talus::report {
 
@@ -10,6 +11,10 @@ namespace talus::report {
 /// every extreme among them.
 /// @throws ConfigError where the folder holds no result
 nlohmann::json report_data(const std::filesystem::path& result);
+
+/// The scripts that draw a replay (replay.hpp) and sizes with their units, as elements of a page; they stand before
+/// whatever calls them.
+std::string replay_scripts();
 
 /// Writes report.html into the result folder, one file with everything in it, and returns its path.
 std::filesystem::path write_report(const std::filesystem::path& result);
