@@ -169,6 +169,7 @@ json forces(const json& summary) {
                     {"kind", kind_of(part)},
                     {"force_N", std::max(pull, press)},
                     {"time_s", row.at(pressed ? "compression_time_s" : "tension_time_s")},
+                    {"tension_N", pull},
                     {"compression_N", press > 0 ? json(press) : json(nullptr)},
                     {"limit_N", limit},
                     {"utilisation", utilisation}});

@@ -1,5 +1,7 @@
 #include "coupler/barrier/type_test_page.hpp"
 
+#include <algorithm>
+#include <cstdint>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -32,10 +34,11 @@ void write_type_test_report(const std::filesystem::path& folder, const nlohmann:
   core::replace_file(folder / "report.json", report.dump(1));
   nlohmann::json data = report;
   data["replays"] = nlohmann::json::object();
+  const auto share = report::replay_budget / std::max<std::int64_t>(1, static_cast<std::int64_t>(report.at("tests").size()));
   for (const auto& test : report.at("tests"))
     if (test.value("finished", false)) {
       const auto name = test.at("name").get<std::string>();
-      data["replays"][name] = report::replay(folder / name / "fields.h5");
+      data["replays"][name] = report::replay(folder / name / "fields.h5", share);
     }
   core::replace_file(folder / "report.html",
                      page::make(page_body(), report.value("title", "Type test"), data));

@@ -30,7 +30,9 @@ std::int64_t in_base64(std::int64_t bytes) {
 
 struct Cost {
   std::int64_t once = 0, each_frame = 0;  ///< bytes
-  std::int64_t frames() const { return each_frame > 0 ? (replay_budget - once) / each_frame : most_frames; }
+  std::int64_t frames(std::int64_t budget) const {
+    return each_frame > 0 ? (budget - once) / each_frame : most_frames;
+  }
 };
 
 Cost cost_of(const std::vector<Drawing>& drawings) {
@@ -46,13 +48,13 @@ Cost cost_of(const std::vector<Drawing>& drawings) {
 
 /// As many cells as leave room for so many frames.
 std::vector<Drawing> affordable_drawings(const std::vector<const GroupDescription*>& groups,
-                                         std::int64_t frames) {
+                                         std::int64_t frames, std::int64_t budget) {
   std::int64_t most_cells = 1;
   for (const auto* group : groups) most_cells = std::max(most_cells, group->cell_count());
   for (;; most_cells = most_cells * 4 / 5) {
     std::vector<Drawing> drawings;
     for (const auto* group : groups) drawings.push_back(drawing_of(*group, most_cells));
-    if (most_cells < 10 || cost_of(drawings).frames() >= frames) return drawings;
+    if (most_cells < 10 || cost_of(drawings).frames(budget) >= frames) return drawings;
   }
 }
 
@@ -107,14 +109,14 @@ json place_in(const std::vector<std::int64_t>& frames, std::optional<std::int64_
   return std::ranges::lower_bound(frames, *frame) - frames.begin();
 }
 
-json replay_of(const FieldReader& fields) {
+json replay_of(const FieldReader& fields, std::int64_t budget) {
   const auto lying_on = doubles(fields);
   std::vector<const GroupDescription*> groups;
   for (const auto& group : fields.groups())
     if (!lying_on.contains(group.name)) groups.push_back(&group);
   const Instants instants = instants_of(fields);
-  const auto drawings = affordable_drawings(groups, std::min(fields.frames(), fewest_frames));
-  const std::int64_t most = std::clamp<std::int64_t>(cost_of(drawings).frames(), 4, most_frames);
+  const auto drawings = affordable_drawings(groups, std::min(fields.frames(), fewest_frames), budget);
+  const std::int64_t most = std::clamp<std::int64_t>(cost_of(drawings).frames(budget), 4, most_frames);
   const auto frames = chosen_frames(fields.frames(), most, instants);
   json result{{"of", fields.frames()},
               {"frames", frames},
@@ -131,7 +133,7 @@ json replay_of(const FieldReader& fields) {
 
 }  // namespace
 
-json replay(const std::filesystem::path& file) {
+json replay(const std::filesystem::path& file, std::int64_t budget) {
   const auto nothing = [](const char* why) {
     return json{{"lacks", why}, {"times", json::array()}, {"groups", json::array()}};
   };
@@ -139,7 +141,7 @@ json replay(const std::filesystem::path& file) {
     return nothing("the result has no fields.h5: its scene names no output.fields_every");
   const FieldReader fields(file);
   if (fields.frames() == 0) return nothing("no frame of the fields was written yet");
-  json result = replay_of(fields);
+  json result = replay_of(fields, budget);
   if (fields.frames() == 1) result["lacks"] = "the fields hold one frame only, which does not move";
   return result;
 }

@@ -131,6 +131,13 @@ class OfASheet(unittest.TestCase):
             self.assertEqual(row["force_N"], max(f[row["part"]] for f in forces.values()))
             self.assertEqual(row["force_N"], forces[row["test"]][row["part"]])
 
+    def test_the_page_holds_the_report_and_a_replay_of_every_impact(self):
+        page = (self.folder / "report.html").read_text()
+        self.assertLess(len(page), 5e6)
+        for words in (self.report["title"], '"replays"', *self.tests):
+            self.assertIn(words, page)
+        self.assertNotIn('"lacks"', page)
+
     def test_a_folder_that_holds_a_test_is_kept(self):
         again = talus(self.folder.parent / "sheet.yaml", "--test", self.folder)
         self.assertEqual(again.returncode, 2)
