@@ -10,6 +10,7 @@
 
 #include "core/errors.hpp"
 #include "core/output/file.hpp"
+#include "core/program/command_line.hpp"
 #include "core/program/stop.hpp"
 #include "coupler/barrier/measures.hpp"
 #include "coupler/barrier/rules.hpp"
@@ -207,6 +208,7 @@ json Course::report() const {
       tests_.contains("mel") ? tests_.at("mel").value("residual_share", json(nullptr)) : json(nullptr);
   json data{{"title", test_.loaded.title},
             {"sheet_file", test_.sheet_file},
+      {"version", "talus " + core::version()},
             {"written", fmt::format("{:%Y-%m-%d}", fmt::localtime(std::time(nullptr)))},
             {"slope_deg", sheet.slope * 180 / std::numbers::pi},
             {"class",

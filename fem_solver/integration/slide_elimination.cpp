@@ -28,6 +28,10 @@ SparseMatrix sparse(Index size, const std::vector<Eigen::Triplet<double>>& entri
   return matrix;
 }
 
+double largest_diagonal(const SparseMatrix& matrix) {
+  return matrix.diagonal().cwiseAbs().maxCoeff();
+}
+
 /// The slide whose sliders each node is one of; every node may follow one rope.
 std::vector<const ConstrainedSlide*> slides_of_nodes(const Model& model) {
   std::vector<const ConstrainedSlide*> followed(static_cast<std::size_t>(model.nodes()), nullptr);
@@ -203,13 +207,17 @@ void SlideElimination::lead(std::span<double> rates) const {
 }
 
 SparseMatrix SlideElimination::condense(const SparseMatrix& matrix) const {
+  return condense(matrix, largest_diagonal(matrix));
+}
+
+SparseMatrix SlideElimination::condense(const SparseMatrix& matrix, double unit) const {
   const Index size = equations_.count();
   std::vector<bool> follows(static_cast<std::size_t>(size), false);
   std::vector<Eigen::Triplet<double>> weights, ones;
   for (const Follower& follower : followers_) {
     const Index row = equations_.of(follower.direction);
     follows[static_cast<std::size_t>(row)] = true;
-    ones.emplace_back(row, row, matrix.diagonal().cwiseAbs().maxCoeff());
+    ones.emplace_back(row, row, unit);
     for (std::size_t k = 0; k < follower.count; ++k)
       if (const Index column = equations_.of(follower.masters[k]); column >= 0)
         weights.emplace_back(row, column, follower.weights[k]);
@@ -229,7 +237,8 @@ SparseMatrix SlideElimination::condense(const SparseMatrix& matrix) const {
 }
 
 SparseMatrix SlideElimination::condense_with_curvature(const SparseMatrix& tangent) const {
-  return condense(tangent + sparse(equations_.count(), curvature_));
+  const SparseMatrix curved = tangent + sparse(equations_.count(), curvature_);
+  return condense(curved, largest_diagonal(tangent));
 }
 
 double SlideElimination::gap(std::size_t slide, std::span<const double> displacement) const {

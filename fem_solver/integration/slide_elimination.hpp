@@ -77,6 +77,8 @@ class SlideElimination {
     void carry(std::span<double> force) const;
   };
 
+  /// @param unit on the diagonal of followers (N/m)
+  SparseMatrix condense(const SparseMatrix& matrix, double unit) const;
   Vector3 position(std::span<const double> displacement, Index node) const;
   void put(const Slider& slider, const Vector3& place, std::span<double> displacement) const;
   SlideConstraint constraint(std::span<const double> displacement, const Slider& slider) const;
