@@ -102,7 +102,8 @@ json rules_of(const Tests& tests, const BarrierSheet& sheet) {
   rules.add({"barrier", "spans of the tested barrier", static_cast<double>(sheet.posts.count - 1), "spans",
              "3", sheet.posts.count == 4, "S"});
   if (tests.contains("sel_1") && !tests.contains("sel_2"))
-    rules.add({"sel_2", "the second impact without repair could not be run", json(nullptr), "", "stopped", nullptr, "S"});
+    rules.add({"sel_2", "the second impact without repair could not be run", json(nullptr), "", "stopped",
+               nullptr, "S"});
   for (const auto& [name, test] : tests) {
     rules.of_impact(name, test);
     if (name == "sel_1") rules.of_height(name, test, 0.7, "R");

@@ -71,8 +71,8 @@ class Course {
   fs::path folder_of(const std::string& name) const { return test_.folder / name; }
   fs::path log_of(const std::string& name) const { return test_.folder / (name + ".log"); }
   static std::string after(const std::string& stage) {
-    return fmt::format("{{after: {{state: {}/structure_state.h5, steps: {}, tolerance: {}}}}}", stage, most_steps_to_rest,
-                       left_over_at_rest);
+    return fmt::format("{{after: {{state: {}/structure_state.h5, steps: {}, tolerance: {}}}}}", stage,
+                       most_steps_to_rest, left_over_at_rest);
   }
 
   /// Writes the scene of a stage and runs it. @returns whether it finished
@@ -208,7 +208,7 @@ json Course::report() const {
       tests_.contains("mel") ? tests_.at("mel").value("residual_share", json(nullptr)) : json(nullptr);
   json data{{"title", test_.loaded.title},
             {"sheet_file", test_.sheet_file},
-      {"version", "talus " + core::version()},
+            {"version", "talus " + core::version()},
             {"written", fmt::format("{:%Y-%m-%d}", fmt::localtime(std::time(nullptr)))},
             {"slope_deg", sheet.slope * 180 / std::numbers::pi},
             {"class",

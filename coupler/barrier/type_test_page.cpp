@@ -34,7 +34,8 @@ void write_type_test_report(const std::filesystem::path& folder, const nlohmann:
   core::replace_file(folder / "report.json", report.dump(1));
   nlohmann::json data = report;
   data["replays"] = nlohmann::json::object();
-  const auto share = report::replay_budget / std::max<std::int64_t>(1, static_cast<std::int64_t>(report.at("tests").size()));
+  const auto share =
+      report::replay_budget / std::max<std::int64_t>(1, static_cast<std::int64_t>(report.at("tests").size()));
   for (const auto& test : report.at("tests"))
     if (test.value("finished", false)) {
       const auto name = test.at("name").get<std::string>();
