@@ -7,6 +7,7 @@
 
 #include "core/output/file.hpp"
 #include "core/program/log.hpp"
+#include "core/program/stop.hpp"
 #include "coupler/app/commands.hpp"
 #include "coupler/barrier/scene_text.hpp"
 #include "coupler/barrier/type_test.hpp"
@@ -102,6 +103,7 @@ core::ExitCode test_barrier(const BarrierRequest& request) {
   if (std::filesystem::exists(request.test / "report.json") && !request.overwrite)
     throw core::ConfigError(
         fmt::format("{}: holds a test already; --overwrite replaces it", request.test.string()));
+  core::watch_stop_signals("with the stage in progress");
   const auto report =
       barrier::run_type_test({.loaded = loaded,
                               .sheet_file = request.sheet.filename().string(),
@@ -109,7 +111,11 @@ core::ExitCode test_barrier(const BarrierRequest& request) {
                               .impacts = {request.impacts.begin(), request.impacts.end()},
                               .time_limit = request.time_limit,
                               .tell = [](const std::string& line) { fmt::print(stderr, "{}\n", line); }});
-  if (!report) return core::ExitCode::interrupted;
+  if (!report) {
+    fmt::print(stderr, "{}; the stages that finished stay in {}\n", core::stop_reason(),
+               request.test.string());
+    return core::ExitCode::interrupted;
+  }
   barrier::write_type_test_report(request.test, *report);
   print_verdict(*report);
   fmt::print("{}\n", (request.test / "report.html").string());

@@ -5,6 +5,7 @@ import csv
 import json
 import pathlib
 import re
+import signal
 import subprocess
 import sys
 import tempfile
@@ -144,6 +145,21 @@ class OfASheet(unittest.TestCase):
         self.assertIn("holds a test already", again.stderr)
         self.assertEqual(talus(self.folder.parent / "sheet.yaml", "--test", self.folder, "--impacts", "mle").returncode, 2)
         self.assertEqual(talus(self.folder.parent / "sheet.yaml", "--impacts", "mel").returncode, 2)
+
+
+class Stopped(unittest.TestCase):
+    def test_a_test_that_is_stopped_ends_its_stage_and_says_so(self):
+        folder = pathlib.Path(tempfile.mkdtemp(dir=WORK.name))
+        (folder / "sheet.yaml").write_text(SHEET)
+        running = subprocess.Popen([BUILD / "bin/talus", "barrier", folder / "sheet.yaml", "--test", folder / "test"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        while "settle" not in running.stderr.readline():
+            self.assertIsNone(running.poll())
+        running.send_signal(signal.SIGTERM)
+        _, said = running.communicate(timeout=30)
+        self.assertEqual(running.returncode, 5)
+        self.assertIn("stages that finished stay", said)
+        self.assertFalse((folder / "test/report.json").exists())
+        self.assertEqual(subprocess.run(["pgrep", "-f", str(folder)], capture_output=True, text=True).stdout, "")
 
 
 class OfAWeakBarrier(unittest.TestCase):
