@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <ranges>
 #include <type_traits>
 
 #include "core/errors.hpp"
@@ -270,8 +269,9 @@ void ExplicitSolver::hold_slides(double time, double step) {
       slides_.hold({.length = step, .kick = state_.kick},
                    {state_.displacement, state_.velocity, state_.force, state_.reactions, state_.slides});
   if (!converged) {
-    const auto worst = std::ranges::max(std::views::iota(std::size_t{0}, model_.constrained_slides.size()),
-                                        {}, [&](std::size_t k) { return slides_.largest_violation(k); });
+    std::size_t worst = 0;
+    for (std::size_t k = 1; k < model_.constrained_slides.size(); ++k)
+      if (slides_.largest_violation(k) > slides_.largest_violation(worst)) worst = k;
     throw core::NumericalError({.what = "the impulses that hold sliders on their ropes do not converge",
                                 .entity = "largest gap (m) of slide " + model_.constrained_slides[worst].name,
                                 .step = state_.steps,

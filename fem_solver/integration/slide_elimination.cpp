@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ranges>
 #include <utility>
 
 #include "core/errors.hpp"
@@ -122,7 +121,9 @@ void SlideElimination::follow(std::span<double> displacement) {
 void SlideElimination::settle(std::span<const double> displacement, std::span<double> residual) {
   followers_.clear();
   curvature_.clear();
-  for (Slider& slider : std::views::reverse(sliders_)) {  // what runs on a rope gives it its force first
+  // What runs on a rope gives it its force first.
+  for (auto next = sliders_.rbegin(); next != sliders_.rend(); ++next) {
+    Slider& slider = *next;
     const Vector3 force = Vector3::Map(&residual[direction_of(slider.node, 0)]);
     const std::size_t first = followers_.size();
     if (slider.corner) leave_corner(displacement, force, slider);
@@ -200,7 +201,8 @@ void SlideElimination::carry_over(std::span<double> force) const {
 }
 
 void SlideElimination::lead(std::span<double> rates) const {
-  for (const auto& [direction, masters, weights, count] : std::views::reverse(followers_)) {
+  for (auto next = followers_.rbegin(); next != followers_.rend(); ++next) {
+    const auto& [direction, masters, weights, count] = *next;
     rates[direction] = 0;
     for (std::size_t k = 0; k < count; ++k) rates[direction] += weights[k] * rates[masters[k]];
   }
