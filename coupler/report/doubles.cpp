@@ -40,7 +40,8 @@ std::map<std::string, std::string> doubles(const FieldReader& fields) {
   std::map<std::string, std::string> found;
   std::vector<const GroupDescription*> ordered;
   for (const auto& group : fields.groups()) ordered.push_back(&group);
-  std::ranges::stable_partition(ordered, [](const auto* group) { return has_field(*group, "displacement"); });
+  std::stable_partition(ordered.begin(), ordered.end(),
+                        [](const auto* group) { return has_field(*group, "displacement"); });
   std::vector<const GroupDescription*> drawn;
   for (const auto* group : ordered) {
     const auto below = std::ranges::find_if(
