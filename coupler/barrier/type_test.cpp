@@ -58,7 +58,9 @@ class Course {
   explicit Course(const TypeTest& test) : test_(test), layout_(layout_of(test.loaded.sheet)) {}
 
   json run() {
-    std::filesystem::create_directories(test_.folder);
+    std::error_code error;
+    if (fs::create_directories(test_.folder, error); error)
+      throw core::FileError(test_.folder, "created", error.value());
     if (!rest("settle", "The barrier comes to rest under its weight.", "{relaxation: {}}"))
       throw core::ConfigError(fmt::format("the barrier does not come to rest under its weight: {} ({})",
                                           last_line(log_of("settle")), log_of("settle").string()));
