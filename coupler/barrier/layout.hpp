@@ -12,6 +12,9 @@ namespace talus::barrier {
 
 inline constexpr double standard_gravity = 9.81;  ///< m/s^2
 
+/// Of a block's edge: how far its surface is from its centre at most, sqrt(6)/4.
+inline constexpr double reach_of_block = 0.6124;
+
 struct Layout {
   std::vector<core::Vector3> feet, heads;  ///< m; of the posts
   std::vector<core::Vector3>

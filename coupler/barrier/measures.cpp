@@ -120,7 +120,7 @@ json or_null(const std::optional<double>& value) {
   return value ? json(*value) : json(nullptr);
 }
 
-/// The lowest place of net and block above the ground, up to a time (m).
+/// The lowest place of net and block above the ground, up to a time, the block with the farthest of its points down (m).
 std::optional<double> clearance(const core::FieldReader& fields, const Curves& curves, const Layout& layout,
                                 double until) {
   const auto* net = group_of(fields, "net");
@@ -132,7 +132,7 @@ std::optional<double> clearance(const core::FieldReader& fields, const Curves& c
   }
   const auto& z = curves.of("block.position_z_m");
   for (std::size_t i = 0; i < z.size() && curves.time()[i] <= until; ++i)
-    least = std::min(least, z[i] - 0.5 * layout.block_edge);
+    least = std::min(least, z[i] - reach_of_block * layout.block_edge);
   return least;
 }
 
@@ -273,7 +273,9 @@ json energy(const fs::path& result, double at_peak) {
   return {{"columns", {"largest elongation", "end"}}, {"rows", rows}, {"input_J", {input[0], input[1]}}};
 }
 
+/// Null where nothing can break.
 json broken(const json& summary) {
+  if (table_of(summary, "ruptures").empty()) return nullptr;
   json rows = json::array();
   for (const auto& [part, row] : table_of(summary, "ruptures").items())
     if (row.at("broken").get<double>() > 0)

@@ -49,8 +49,9 @@ class Rules {
     add({name, "net and block stay off the ground until the largest elongation", clearance, "m", "above 0",
          decided(clearance, [](double z) { return z > 0; }), "R"});
     most_used(name, test);
-    add({name, "nothing of the barrier breaks", static_cast<double>(test.at("broken").size()), "parts",
-         "none", test.at("broken").empty(), "S"});
+    if (test.at("broken").is_array())  // else nothing can break
+      add({name, "nothing of the barrier breaks", static_cast<double>(test.at("broken").size()), "parts",
+           "none", test.at("broken").empty(), "S"});
     const json& error = test.at("energy_error");
     add({name, "the computation keeps its energy",
          error.is_number() ? json(100 * std::abs(error.get<double>())) : error, "%", "at most 2",

@@ -30,8 +30,6 @@ constexpr double rest_time = 1e-3;  // s; of stages that only come to rest
 /// Crumpled nets come to rest slowly. What is left over, of the largest force, moves them by less than 1e-6 of the block's energy.
 constexpr double left_over_at_rest = 3e-4;
 constexpr int most_steps_to_rest = 1000000;
-/// Of the block's edge: the farthest point of its surface from its centre is sqrt(6)/4 of it.
-constexpr double reach_of_block = 0.62;
 
 std::string last_line(const fs::path& log) {
   std::ifstream file(log);

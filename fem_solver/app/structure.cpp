@@ -185,20 +185,21 @@ std::vector<StructuralEffect> Structure::effects(const StructureScene& scene) co
   const auto add = [&](const char* effect, const char* key, bool present) -> StructuralEffect& {
     return effects.emplace_back(effect_at(effect, std::string("structure.") + key, present));
   };
-  for (const auto& [name, part] : scene.parts) add_effects_of_part(effects, name, part.element);
-  const auto in_a_part = [&](const auto& has) {
-    return std::ranges::any_of(scene.parts, [&](const auto& part) { return has(part.second); });
-  };
-  const auto damped = [&](double DampingScene::*term) {
-    const auto has = [&](const auto& where) { return where.damping && (*where.damping).*term > 0; };
-    return has(scene) || in_a_part(has);
-  };
-  add("gravity on the structure", "gravity",
-      scene.gravity || in_a_part([](const PartScene& part) { return part.gravity.has_value(); }))
-      .ledger_line = "structure.gravity_J";
-  add("mass-proportional damping", "damping.mass", damped(&DampingScene::mass)).ledger_line =
+  for (const auto& [name, part] : scene.parts) {
+    add_effects_of_part(effects, name, part.element);
+    const std::string key = "parts." + name;
+    if (part.gravity)
+      add(("gravity on " + name).c_str(), (key + ".gravity").c_str(), true).ledger_line =
+          "structure.gravity_J";
+    if (part.damping)
+      add(("damping of " + name).c_str(), (key + ".damping").c_str(), true).ledger_line =
+          "structure.bulk_damping_J";
+  }
+  const auto& damping = scene.damping;
+  add("gravity on the structure", "gravity", scene.gravity.has_value()).ledger_line = "structure.gravity_J";
+  add("mass-proportional damping", "damping.mass", damping && damping->mass > 0).ledger_line =
       "structure.bulk_damping_J";
-  add("stiffness-proportional damping", "damping.stiffness", damped(&DampingScene::stiffness)).ledger_line =
+  add("stiffness-proportional damping", "damping.stiffness", damping && damping->stiffness > 0).ledger_line =
       "structure.bulk_damping_J";
   add("nodal loads", "loads", !scene.loads.empty());
   add("point masses", "point_masses", !scene.point_masses.empty());

@@ -78,7 +78,7 @@ class SlideProjection {
   std::span<const double> impulses() const noexcept { return impulse_; }
 
  private:
-  /// Where each slider stands; @return its gap's component along the segment if it is beyond the rope's end, else 0
+  /// Where a slider stands. @return -1 at or before the rope's first node, 1 at or behind its last one, else 0
   double find(const Place& at, std::size_t slider) noexcept;
   bool solve(std::span<const double> inverse_masses, double enough) noexcept;
   void spread(std::span<const double> impulses, std::span<const double> inverse_masses) noexcept;

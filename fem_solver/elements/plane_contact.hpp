@@ -67,9 +67,9 @@ struct PlaneContact {
   Matrix3 tangent(const Vector3& place, const Memory& before) const noexcept {
     if (!(depth(place) > 0)) return Matrix3::Zero();
     Matrix3 K = stiffness * normal * normal.transpose();
-    if (!(friction > 0)) return K;
+    if (!(friction > 0) || !before.touches) return K;  // a node that arrives has no spring along yet
     const Matrix3 P = Matrix3::Identity() - normal * normal.transpose();
-    const Vector3 trial = before.touches ? along(place - before.anchor) : Vector3(Vector3::Zero());
+    const Vector3 trial = along(place - before.anchor);
     const double most = friction * depth(place), size = trial.norm();
     if (!(size > most)) return K + stiffness * P;
     const Vector3 t = trial / size;

@@ -104,6 +104,7 @@ void ExplicitSolver::archive(core::StateArchive& archive) {
 void ExplicitSolver::step(double time, double step) {
   assembly_.start_step();
   state_.kick = 0.5 * (state_.previous_step + step);
+  if (slides_.exists()) book_moves();
   evaluate_forces(time);
   if (record_) record_->note_elements(time, state_.configuration(), assembly_.next_memory(), state_.record);
   std::ranges::copy(assembly_.next_memory(), state_.memory.begin());
@@ -149,7 +150,6 @@ void ExplicitSolver::evaluate_own_forces(double time, std::span<double> force) n
     std::ranges::copy(element_force_, force.begin());
   else
     assembly_.internal_force(state_.configuration(), force);
-  if (slides_.exists()) book_moves(force);
   if (!damping_force_.empty()) subtract_stiffness_damping(force);
   add_external_force(model_, {}, {.time = time}, force);
 }
@@ -283,8 +283,9 @@ void ExplicitSolver::hold_slides(double time, double step) {
   work.pending = 0.5 * step * slides_.power(state_.velocity);
 }
 
-void ExplicitSolver::book_moves(std::span<const double> element_force) noexcept {
-  double work = slides_.work_of_moves(state_.slides, element_force);
+void ExplicitSolver::book_moves() {
+  prepare();
+  double work = slides_.work_of_moves(state_.slides, element_force_);
   if (model_.gravity_history.points.empty() && !model_.weight.empty())
     work += slides_.work_of_moves(state_.slides, model_.weight);
   state_.works[by_slides].done -= work;

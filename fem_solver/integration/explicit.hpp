@@ -133,7 +133,7 @@ class ExplicitSolver final : public Integrator {
   /// With the terms that the scene names.
   double advance_free(double step) noexcept;
   /// Energy that moving sliders back has brought in: elements and weight work on the way, nothing else does.
-  void book_moves(std::span<const double> element_force) noexcept;
+  void book_moves();
   /// What mass damping has taken where sliders were led: the velocities that count are those after it.
   void damp_sliding_nodes(double step) noexcept;
   /// Takes sliders back to their ropes after a free step.

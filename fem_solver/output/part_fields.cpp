@@ -135,12 +135,12 @@ struct ObstacleQuantities {
   using Batch = ObstacleBatch;
   static constexpr core::CellKind kind = core::CellKind::vertex;
   static constexpr CellQuantity<Batch> cells[] = {
-      {"contact_force", "N", [](const Batch& b, At u, Index e) { return b.force(u, e); }},
+      {"obstacle_force", "N", [](const Batch& b, At u, Index e) { return b.force(u, e); }},
       {"depth", "m", [](const Batch& b, At u, Index e) { return b.depth(u, e); }}};
   static constexpr PartQuantity<Batch> whole[] = {
-      {"contact_force_max_N",
+      {"obstacle_force_max_N",
        [](const Batch& b, At u) { return largest(b, [&](Index e) { return b.force(u, e); }); }},
-      {"contact_force_sum_N",
+      {"obstacle_force_sum_N",
        [](const Batch& b, At u) {
          double sum = 0;
          for (Index e = 0; e < b.size(); ++e) sum += b.force(u, e);

@@ -22,7 +22,7 @@ Meeting meeting_of(const Model& model) {
     if (bars && !(bars->part().section.prestress > 0)) {
       for (const auto& bar : bars->cells())
         for (const Index node : bar) ++meeting.bars[static_cast<std::size_t>(node)];
-    } else {
+    } else if (!std::holds_alternative<ObstacleBatch>(part.elements)) {
       for (const Index node : part.nodes) meeting.other[static_cast<std::size_t>(node)] = true;
     }
   }

@@ -147,6 +147,33 @@ class OfASheet(unittest.TestCase):
         self.assertEqual(talus(self.folder.parent / "sheet.yaml", "--impacts", "mel").returncode, 2)
 
 
+class Others(unittest.TestCase):
+    def test_other_barriers_hits_and_slopes_are_measured_too(self):
+        coarse = SHEET.replace("time: 0.1 s", "time: 0.05 s")
+        for name, changes in {
+            "no brakes, two posts": [("    brakes: {force: 60 kN, travel: 2.2 m}\n", ""), ("count: 4", "count: 2")],
+            "flat block beside the middle on a slope": [("slope: 90 deg", "slope: 60 deg"), ("mass: 3200 kg", "form: eota_221, mass: 3200 kg, along: 12 m, spin: [5, 0, 0]")],
+            "friction": [("number: 2", "number: 2\n    friction: 0.15")],
+        }.items():
+            with self.subTest(name):
+                sheet = coarse
+                for old, new in changes:
+                    self.assertIn(old, sheet)
+                    sheet = sheet.replace(old, new)
+                done, folder = type_test(sheet, "--impacts", "mel")
+                self.assertEqual(done.returncode, 0, done.stderr)
+                report = json.loads((folder / "report.json").read_text())
+                test = report["tests"][0]
+                self.assertTrue(test["finished"], test["why_not"])
+                self.assertEqual(len(test["brakes"]), 0 if "no brakes" in name else 4)
+                self.assertEqual([a["name"] for a in test["anchors"] if a["at"] is None], [])
+                self.assertLess(abs(test["energy_error"]), 2e-3)
+                spans = [rule for rule in report["rules"] if "spans" in rule["what"]][0]
+                self.assertEqual(spans["passes"], "two posts" not in name)
+                found = sum(row["J"][1] for row in test["energy"]["rows"]) / test["energy"]["input_J"][1]
+                self.assertAlmostEqual(found, 1, delta=3e-3)
+
+
 class Stopped(unittest.TestCase):
     def test_a_test_that_is_stopped_ends_its_stage_and_says_so(self):
         folder = pathlib.Path(tempfile.mkdtemp(dir=WORK.name))

@@ -139,6 +139,7 @@ TEST_CASE("what a corner's gap costs as it is taken back stands in the ledger") 
   const double before = total();
   double booked = 0, farthest = 0, worst = 0;
   for (int k = 0; k < 12; ++k) {
+    run.free_velocity(0.01 * k, 1e-4);  // particles with implicit contact ask for it; asking costs nothing
     run.advance(0.01 * k, 0.01);
     booked = std::max(booked, std::abs(run.balance().slides));
     farthest = std::max(farthest, run.displacement()[3 * 9]);
