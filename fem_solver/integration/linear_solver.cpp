@@ -49,9 +49,6 @@ struct LinearSolver::Factor {
     cholmod_start(&common);
     common.print = 0;  // a matrix that is not positive definite is an answer here, not a message
     common.final_ll = 1;
-    // Column by column. By supernodes CHOLMOD starts four threads for each of thousands of small blocks,
-    // which takes longer than the factor itself and steals the cores of the coupled processes.
-    common.supernodal = CHOLMOD_SIMPLICIAL;
   }
   ~Factor() {
     cholmod_free_factor(&factor, &common);
@@ -64,13 +61,17 @@ struct LinearSolver::Factor {
   cholmod_factor* factor = nullptr;
 };
 
-LinearSolver::LinearSolver() : factor_(std::make_unique<Factor>()) {}
+LinearSolver::LinearSolver(Eigen::Index rows_in_blocks)
+    : rows_in_blocks_(rows_in_blocks), factor_(std::make_unique<Factor>()) {}
 LinearSolver::~LinearSolver() = default;
 
 bool LinearSolver::factorise(const SparseMatrix& matrix) {
   if (matrix.rows() == 0) return true;
   cholmod_sparse a = view(matrix);
-  if (!factor_->factor) factor_->factor = cholmod_analyze(&a, &factor_->common);
+  if (!factor_->factor) {
+    factor_->common.supernodal = matrix.rows() < rows_in_blocks_ ? CHOLMOD_SIMPLICIAL : CHOLMOD_SUPERNODAL;
+    factor_->factor = cholmod_analyze(&a, &factor_->common);
+  }
   cholmod_factorize(&a, factor_->factor, &factor_->common);
   return factor_->common.status == CHOLMOD_OK &&
          cholmod_rcond(factor_->factor, &factor_->common) > least_reciprocal_condition;

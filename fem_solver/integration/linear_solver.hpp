@@ -11,7 +11,10 @@ namespace talus::fem {
 /// pattern, unless it is told otherwise.
 class LinearSolver {
  public:
-  LinearSolver();
+  /// @param rows_in_blocks from so many rows on the factor is made of dense blocks. Below, CHOLMOD starts four threads
+  /// for each of thousands of small ones, which takes longer than column by column and steals the cores of the coupled
+  /// processes.
+  explicit LinearSolver(Eigen::Index rows_in_blocks = 100000);
   ~LinearSolver();
 
   /// @param matrix lower half. @returns false where it is not positive definite, or so nearly singular that a
@@ -28,6 +31,7 @@ class LinearSolver {
  private:
   [[noreturn]] void report_no_factor(double value) const;
   struct Factor;
+  Eigen::Index rows_in_blocks_;
   std::unique_ptr<Factor> factor_;
 };
 
