@@ -21,10 +21,12 @@ std::string sentence(const TransportError::Details& d) {
 
 std::string sentence(const NumericalError::Details& d) {
   const std::string step = d.step < 0 ? "" : fmt::format("step {}, ", d.step);
-  const std::string last = d.last_output_time < 0
-                               ? "no output was written before"
-                               : fmt::format("the last good output is at {:.9g} s", d.last_output_time);
-  return fmt::format("{} at {}time {:.9g} s: {} = {:.6g}; {}", d.what, step, d.time, d.entity, d.value, last);
+  std::string last;
+  if (d.last_output_time)
+    last = *d.last_output_time < 0
+               ? "; no output was written before"
+               : fmt::format("; the last good output is at {:.9g} s", *d.last_output_time);
+  return fmt::format("{} at {}time {:.9g} s: {} = {:.6g}{}", d.what, step, d.time, d.entity, d.value, last);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -79,7 +80,8 @@ class NumericalError : public std::runtime_error {
     std::int64_t step = -1;
     double time = 0;  ///< s
     double value = 0;
-    double last_output_time = -1;  ///< s; the last time whose output is good; < 0: none
+    std::optional<double> last_output_time =
+        {};  ///< s; whose output is the last good one; < 0: none; absent: not known
   };
   explicit NumericalError(Details details);
   const Details& details() const { return details_; }

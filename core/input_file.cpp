@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <cstdint>
 #include <fstream>
 #include <sstream>
+#include <vector>
 
 #include "core/errors.hpp"
 
@@ -50,6 +52,17 @@ std::string text_of_file(const std::filesystem::path& path) {
   if (stream.bad() || (!stream && !stream.eof()))
     throw ConfigError(fmt::format("cannot be read: '{}'", path.string()));
   return text.str();
+}
+
+std::string digest_of_content(const std::filesystem::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream) return "absent";
+  std::uint64_t digest = 0xcbf29ce484222325u;
+  std::vector<char> block(1 << 16);
+  while (stream.read(block.data(), static_cast<std::streamsize>(block.size())), stream.gcount() > 0)
+    for (std::streamsize i = 0; i < stream.gcount(); ++i)
+      digest = (digest ^ static_cast<unsigned char>(block[static_cast<std::size_t>(i)])) * 0x100000001b3u;
+  return fmt::format("{:016x}", digest);
 }
 
 void drop_byte_order_mark(std::string& text) {

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <nanoflann.hpp>
 #include <numeric>
 #include <set>
 #include <unordered_map>
@@ -38,24 +39,16 @@ std::vector<Edge> triangle_edges(const Surface& surface) {
   return edges;
 }
 
-std::vector<Index> loose_nodes(const Surface& surface) {
-  const auto count = static_cast<std::size_t>(surface.node_count());
-  std::vector<int> lines(count, 0);
-  std::vector<char> in_triangle(count, 0), loose(count, 0);
-  const auto at = [](Index node) { return static_cast<std::size_t>(node); };
-  for (const auto& [a, b] : surface.segments) ++lines[at(a)], ++lines[at(b)];
+/// Edges that one triangle alone has, and lines.
+std::vector<Edge> rims_and_lines(const Surface& surface) {
   const auto edges = triangle_edges(surface);
+  std::vector<Edge> found(surface.segments.begin(), surface.segments.end());
   for (std::size_t k = 0; k < edges.size(); ++k) {
-    const auto& [a, b] = edges[k];
-    in_triangle[at(a)] = in_triangle[at(b)] = 1;
     const bool shared =
         (k > 0 && edges[k - 1] == edges[k]) || (k + 1 < edges.size() && edges[k + 1] == edges[k]);
-    if (!shared) loose[at(a)] = loose[at(b)] = 1;
+    if (!shared) found.push_back(edges[k]);
   }
-  std::vector<Index> nodes;
-  for (Index node = 0; node < surface.node_count(); ++node)
-    if (loose[at(node)] || (lines[at(node)] == 1 && !in_triangle[at(node)])) nodes.push_back(node);
-  return nodes;
+  return found;
 }
 
 /// Of the lines and triangles at each node, m.
@@ -188,14 +181,15 @@ double rounded_up(double value) {
 std::vector<NearNodes> nearly_joined(const Surface& surface) {
   const auto shortest = shortest_edges(surface);
   std::vector<Seeker> seekers;
-  for (const Index node : loose_nodes(surface))
-    seekers.push_back({node, near_of_edge * shortest[static_cast<std::size_t>(node)]});
+  for (Index node = 0; node < surface.node_count(); ++node)
+    if (const double reach = near_of_edge * shortest[static_cast<std::size_t>(node)]; std::isfinite(reach))
+      seekers.push_back({node, reach});
   return MutualNeighbours(surface, seekers).take();
 }
 
-Net join_loose_nodes(const Net& net, double tolerance, const std::string& what) {
+Net join_near_nodes(const Net& net, double tolerance, const std::string& what) {
   std::vector<Seeker> seekers;
-  for (const Index node : loose_nodes(net.surface)) seekers.push_back({node, tolerance});
+  for (Index node = 0; node < net.surface.node_count(); ++node) seekers.push_back({node, tolerance});
   const auto first = first_of_joined(net.surface.node_count(), MutualNeighbours(net.surface, seekers).take());
 
   Net joined;
@@ -233,12 +227,14 @@ Net join_loose_nodes(const Net& net, double tolerance, const std::string& what) 
   return joined;
 }
 
-void refuse_nearly_joined(const Surface& surface, const std::string& what) {
+namespace {
+
+void refuse_near_nodes(const Surface& surface, const std::string& what) {
   const auto pairs = nearly_joined(surface);
   if (pairs.empty()) return;
   const auto& worst = *std::max_element(pairs.begin(), pairs.end(),
                                         [](const auto& a, const auto& b) { return a.distance < b.distance; });
-  const std::string places = fmt::format("{} pair(s) of loose nodes", pairs.size());
+  const std::string places = fmt::format("{} pair(s) of nodes", pairs.size());
   const std::string example = fmt::format("nodes {} and {} at {}", worst.first, worst.second,
                                           describe_point(point(surface.positions, worst.first)));
   if (worst.distance == 0)
@@ -251,6 +247,71 @@ void refuse_nearly_joined(const Surface& surface, const std::string& what) {
                   "`join: {:g} m` joins "
                   "them, `join: 0 m` leaves them apart",
                   what, places, worst.distance, example, rounded_up(worst.distance)));
+}
+
+struct PointCloud {
+  const Surface& surface;
+  const std::vector<Index>& nodes;
+  std::size_t kdtree_get_point_count() const { return nodes.size(); }
+  double kdtree_get_pt(std::size_t k, std::size_t direction) const {
+    return surface.positions[3 * static_cast<std::size_t>(nodes[k]) + direction];
+  }
+  template <class Box>
+  bool kdtree_get_bbox(Box&) const {
+    return false;
+  }
+};
+using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, PointCloud>, PointCloud,
+                                                 3, std::size_t>;
+
+void refuse_nodes_on_edges(const Surface& surface, const std::string& what) {
+  const auto found = nodes_on_edges(surface);
+  if (found.empty()) return;
+  const auto& [node, edge] = found.front();
+  throw core::ConfigError(fmt::format(
+      "{}: {} node(s) lie on an edge whose ends they are not, such as node {} at {} on the one from node {} "
+      "to node {}: "
+      "the mesh is torn there. Divide the edge at the node; `join: 0 m` leaves it as it is",
+      what, found.size(), node, describe_point(point(surface.positions, node)), edge[0], edge[1]));
+}
+
+}  // namespace
+
+std::vector<NodeOnEdge> nodes_on_edges(const Surface& surface) {
+  const std::vector<Edge> edges = rims_and_lines(surface);
+  std::vector<Index> nodes;
+  for (const Edge& edge : edges) nodes.insert(nodes.end(), edge.begin(), edge.end());
+  std::ranges::sort(nodes);
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  const std::vector<double> shortest = shortest_edges(surface);
+  const PointCloud cloud{surface, nodes};
+  Tree tree(3, cloud);
+  tree.buildIndex();
+  std::vector<NodeOnEdge> found;
+  std::vector<std::pair<std::size_t, double>> near;
+  for (const Edge& edge : edges) {
+    const Vector3 start = point(surface.positions, edge[0]),
+                  along = point(surface.positions, edge[1]) - start, middle = start + 0.5 * along;
+    const double length = along.norm();
+    tree.radiusSearch(middle.data(), 0.26 * length * length, near, nanoflann::SearchParams(0, 0.f, false));
+    for (const auto& [k, squared] : near) {
+      const Index node = nodes[k];
+      if (node == edge[0] || node == edge[1]) continue;
+      const Vector3 to = point(surface.positions, node) - start;
+      const double share = to.dot(along) / (length * length);
+      if (share <= near_of_edge || share >= 1 - near_of_edge) continue;  // beside an end: another matter
+      if ((to - share * along).norm() <=
+          near_of_edge * std::min(length, shortest[static_cast<std::size_t>(node)]))
+        found.push_back({node, edge});
+    }
+  }
+  std::ranges::sort(found, {}, [](const NodeOnEdge& each) { return std::pair(each.node, each.edge); });
+  return found;
+}
+
+void refuse_torn(const Surface& surface, const std::string& what) {
+  refuse_near_nodes(surface, what);
+  refuse_nodes_on_edges(surface, what);
 }
 
 }  // namespace talus::mesh

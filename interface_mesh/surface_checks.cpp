@@ -116,6 +116,25 @@ void find_flat_triangles(const Surface& surface, std::vector<std::string>& all) 
   }
 }
 
+/// A cell that is there twice counts twice, in stiffness, mass and contact.
+template <std::size_t corners>
+void find_repeated_cells(const std::vector<std::array<Index, corners>>& cells, const char* kind,
+                         const Surface& surface, std::vector<std::string>& all) {
+  std::vector<std::pair<std::array<Index, corners>, std::size_t>> sorted;
+  sorted.reserve(cells.size());
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    sorted.emplace_back(cells[i], i);
+    std::ranges::sort(sorted.back().first);
+  }
+  std::ranges::sort(sorted);
+  Sentences found(all);
+  for (std::size_t k = 1; k < sorted.size(); ++k)
+    if (sorted[k].first == sorted[k - 1].first)
+      found.add(fmt::format("{0} {1} has the same corners as {0} {2}, at {3}: leave one of them out", kind,
+                            sorted[k].second, sorted[k - 1].second,
+                            describe_point(point(surface.positions, sorted[k].first[0]))));
+}
+
 /// Neighbours of a consistently turned surface run along their common edge in opposite directions.
 void find_turned_triangles(const Surface& surface, std::vector<std::string>& all) {
   struct Use {
@@ -155,12 +174,21 @@ void find_dangling_nodes(const Surface& surface, std::vector<std::string>& all) 
 
 }  // namespace
 
+std::vector<std::string> flat_cells(const Surface& surface) {
+  std::vector<std::string> all;
+  find_short_segments(surface, all);
+  find_flat_triangles(surface, all);
+  return all;
+}
+
 std::vector<std::string> faults(const Surface& surface) {
   std::vector<std::string> all;
   // What follows a bad position or reference cannot be computed.
   if (find_bad_positions(surface, all) || find_bad_references(surface, all)) return all;
   find_short_segments(surface, all);
   find_flat_triangles(surface, all);
+  find_repeated_cells(surface.segments, "segment", surface, all);
+  find_repeated_cells(surface.triangles, "triangle", surface, all);
   find_turned_triangles(surface, all);
   find_dangling_nodes(surface, all);
   return all;

@@ -5,7 +5,9 @@
 #include <CLI/CLI.hpp>
 #include <csignal>
 #include <cstdio>
+#include <iostream>
 #include <new>
+#include <system_error>
 
 #include "core/parallel.hpp"
 #include "core/program/log.hpp"
@@ -18,7 +20,12 @@ std::string version() {
 }
 
 std::filesystem::path RunOptions::folder_for(const std::filesystem::path& scene) const {
-  return out.empty() ? std::filesystem::path("results") / scene.stem() : out;
+  if (!out.empty()) return out;
+  const std::filesystem::path name = scene.stem();
+  if (name.empty() || name == "." || name == "..")
+    throw ConfigError(
+        fmt::format("'{}' gives its result no name: say where it goes with --out", scene.string()));
+  return std::filesystem::path("results") / name;
 }
 
 void add_run_options(CLI::App& app, RunOptions& options) {
@@ -49,6 +56,26 @@ std::string sentence_of(const std::exception& error, const std::string& program)
   return exit_code(error) == ExitCode::bug ? fmt::format("{} ends: {}", program, error.what()) : error.what();
 }
 
+/// Text that waits for a full disk is lost without a word at the end of a program.
+void flush_output() {
+  std::cout.flush();
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0 || !std::cout)
+    throw MachineError("what this program prints cannot be written: is the disk full?");
+}
+
+/// fmt reports that a text cannot be printed as an error of the system.
+ExitCode run_and_flush(const std::function<ExitCode()>& body) {
+  try {
+    const ExitCode code = body();
+    flush_output();
+    return code;
+  } catch (const std::filesystem::filesystem_error&) {
+    throw;  // which has a code of its own
+  } catch (const std::system_error& error) {
+    throw MachineError(error.what());
+  }
+}
+
 }  // namespace
 
 int run_main(const std::string& program, const std::function<ExitCode()>& body) noexcept {
@@ -56,7 +83,7 @@ int run_main(const std::string& program, const std::function<ExitCode()>& body) 
   std::signal(SIGXFSZ, SIG_IGN);
   const auto code = [](ExitCode c) { return static_cast<int>(c); };
   try {
-    return code(body());
+    return code(run_and_flush(body));
   } catch (const ConfigError& error) {
     for (const auto& complaint : error.complaints()) log_error(complaint.text());
     return code(ExitCode::config);

@@ -33,6 +33,7 @@ inline constexpr Plausible contraction{
 inline constexpr Plausible area{
     .usual = {.high = 0.5}, .possible = {.high = 100}, .hint = "square millimetres are written mm^2"};
 inline constexpr Plausible thickness{.usual = {.high = 1}, .possible = {.high = 100}, .hint = lengths};
+inline constexpr Plausible wire_diameter{.usual = {.high = 0.1}, .possible = {.high = 1}, .hint = lengths};
 inline constexpr Plausible wire_radius{.usual = {.high = 0.5}, .possible = {.high = 100}, .hint = lengths};
 /// Radius or edge of a stone or rock.
 inline constexpr Plausible rock_size{.usual = {.high = 50}, .possible = {.high = 1e4}, .hint = lengths};
@@ -48,9 +49,22 @@ inline constexpr Plausible gravity{
 inline constexpr Plausible foundation{.usual = {.low = 1e4, .high = 1e14},
                                       .possible = {.low = 1, .high = 1e20},
                                       .hint = "soil has 10 to 1000 MPa/m"};
-inline constexpr Plausible stiffness{.usual = {.low = 1, .high = 1e14},
-                                     .possible = {.low = 0.1, .high = 1e20},
+inline constexpr Plausible stiffness{.usual = {.low = 10, .high = 1e14},
+                                     .possible = {.low = 1, .high = 1e20},
                                      .hint = "meganewtons are written MN; mN is a thousandth of a newton"};
+/// That a rope, wire or brake bears.
+inline constexpr Plausible strength_in_force{
+    .usual = {.low = 1, .high = 1e8},
+    .possible = {.low = 0.1, .high = 1e11},
+    .hint = "kilonewtons are written kN; mN is a thousandth of a newton"};
+inline constexpr Plausible mass_per_length{.usual = {.low = 1e-3, .high = 1e3},
+                                           .possible = {.low = 1e-5, .high = 1e6},
+                                           .hint = "grams a metre are written g/m"};
+/// Of a node: a shackle, a post's head, a block.
+inline constexpr Plausible point_mass{
+    .usual = {.low = 1e-3, .high = 1e6},
+    .possible = {.low = 1e-6, .high = 1e9},
+    .hint = "kilograms are written kg, tonnes t; mg is a millionth of a kilogram"};
 inline constexpr Plausible duration{.possible = {.high = 1e5},
                                     .hint = "milliseconds are written ms; Ms is a million seconds"};
 

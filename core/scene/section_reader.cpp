@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cctype>
 
 #include "core/scene/values.hpp"
 
@@ -11,8 +12,9 @@ namespace talus::core {
 namespace {
 
 bool is_name(const std::string& text) {
-  return std::all_of(text.begin(), text.end(),
-                     [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-'; });
+  return !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) {
+    return std::isalnum(c) || c == '_' || c == '-';
+  });
 }
 
 std::string did_you_mean(const std::string& name, const std::vector<std::string>& known) {
@@ -45,6 +47,12 @@ void SectionReader::finish() {
   for (const auto& entry : node_.entries) {
     if (std::find(known_.begin(), known_.end(), entry.key) != known_.end()) continue;
     const std::string hint = did_you_mean(entry.key, known_);
+    const bool digits = std::ranges::all_of(entry.key, [](unsigned char c) { return std::isdigit(c); });
+    if (digits && entry.value.kind == SceneNode::Kind::null) {
+      complain(location_of(entry),
+               "is no key: a comma parts entries here; decimals are written with a point");
+      continue;
+    }
     complain(location_of(entry),
              fmt::format("unknown key{}{} known here: {}", hint, hint.empty() ? ";" : "",
                          known_.empty() ? "none" : fmt::format("{}", fmt::join(known_, ", "))));

@@ -151,12 +151,13 @@ json to_json(const core::Complaint& c) {
 }
 
 json to_json(const core::NumericalError::Details& d) {
-  return {{"what", d.what},
-          {"entity", d.entity},
-          {"step", d.step},
-          {"time", d.time},
-          {"value", binary(std::vector<double>{d.value})},
-          {"last_output_time", d.last_output_time}};
+  json details{{"what", d.what},
+               {"entity", d.entity},
+               {"step", d.step},
+               {"time", d.time},
+               {"value", binary(std::vector<double>{d.value})}};
+  if (d.last_output_time) details["last_output_time"] = *d.last_output_time;
+  return details;
 }
 
 }  // namespace
@@ -276,12 +277,13 @@ std::vector<core::Complaint> complaints_from(const json& j) {
 }
 
 core::NumericalError::Details details_from(const json& d) {
-  return {d.at("what"),
-          d.at("entity"),
-          d.at("step"),
-          d.at("time"),
-          values_of<double>(d.at("value")).at(0),
-          d.at("last_output_time")};
+  core::NumericalError::Details details{.what = d.at("what"),
+                                        .entity = d.at("entity"),
+                                        .step = d.at("step"),
+                                        .time = d.at("time"),
+                                        .value = values_of<double>(d.at("value")).at(0)};
+  if (d.contains("last_output_time")) details.last_output_time = d.at("last_output_time");
+  return details;
 }
 
 /// The participant's error, made again.

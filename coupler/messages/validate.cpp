@@ -7,6 +7,8 @@
 #include <set>
 #include <stdexcept>
 
+#include "interface_mesh/surface_checks.hpp"
+
 namespace talus::coupler {
 namespace {
 
@@ -97,6 +99,7 @@ void validate_table(const core::TableDescription& table) {
 void validate_outputs(const core::OutputDescription& outputs) {
   std::set<std::string> columns, groups;
   const auto require_new = [](std::set<std::string>& names, const std::string& name) {
+    require(name != "time_s", "the name 'time_s' is that of the table's own first column");
     require(names.insert(name).second, "the name '{}' is given twice", name);
   };
   for (const auto& probe : outputs.probes) {
@@ -131,6 +134,8 @@ void validate(const PublishedSurface& published) {
   const mesh::Index nodes = surface.node_count();
   require_cells(surface.segments, nodes, "segment");
   require_cells(surface.triangles, nodes, "triangle");
+  const auto flat = mesh::flat_cells(surface);
+  require(flat.empty(), "{}", flat.empty() ? "" : flat.front());
   for (const auto& part : surface.parts) {
     require_range(part.segment_begin, part.segment_end, surface.segments.size(), "segments", part.name);
     require_range(part.triangle_begin, part.triangle_end, surface.triangles.size(), "triangles", part.name);

@@ -41,7 +41,9 @@ struct Part {
 std::vector<std::byte> bytes_of(const Part& part) {
   std::ifstream file(part.path, std::ios::binary);
   const std::string text(std::istreambuf_iterator<char>(file), {});
-  if (!file) throw core::FileError("the " + part.name + " could not write its part of the checkpoint");
+  if (!file)
+    throw core::FileError("the " + part.name +
+                          " could not write its part of the checkpoint: its warning says why");
   const auto* first = reinterpret_cast<const std::byte*>(text.data());
   return {first, first + text.size()};
 }
@@ -140,18 +142,16 @@ RestartPoint::RestartPoint(const fs::path& file, const Span& span)
 }
 
 void RestartPoint::compare(const RunIdentity& now) {
-  const auto hash = reader_->text("scene_hash"), scene = reader_->text("scene");
-  if (!hash || !scene) {
+  const auto scene = reader_->text("scene");
+  if (!scene) {
     core::log_warning(file_.string() + " does not say which scene it was written for; it is taken on trust");
     return;
   }
   FlatScene before = flat_scene(reader_->text("programs").value_or("")), present = now.programs;
   before["coupling scheme"] = reader_->text("scheme").value_or("");
   present["coupling scheme"] = now.scheme;
-  if (*hash != now.scene_hash) {
-    before.merge(flat_scene(*scene));
-    present.insert(now.scene.begin(), now.scene.end());
-  }
+  before.merge(flat_scene(*scene));
+  present.insert(now.scene.begin(), now.scene.end());
   const SceneDifference different = difference(before, present);
   if (!different.changed.empty())
     core::log_warning("the run goes on with other values than the checkpoint was written with:" +

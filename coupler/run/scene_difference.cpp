@@ -7,6 +7,7 @@
 #include <regex>
 #include <sstream>
 
+#include "core/input_file.hpp"
 #include "core/scene/tree.hpp"
 #include "core/units/units.hpp"
 
@@ -44,9 +45,12 @@ bool may_differ(const std::string& key) {
 }
 
 bool is_state(const std::string& key) {
-  static const std::regex at_time_0(R"(particles\.(spheres|rocks)\.[^.]+\.(at|velocity|spin|turned)\b.*)"
-                                    R"(|particles\.streams\.[^.]+\.(low|high|velocity|seed)\b.*)"
-                                    R"(|structure\.initial_velocities\b.*)");
+  static const std::regex at_time_0(
+      R"(particles\.(spheres|rocks)\.[^.]+\.(at|velocity|spin|turned)\b.*)"
+      R"(|particles\.streams\.[^.]+\.(low|high|velocity|seed)\b.*)"
+      R"(|structure\.initial_(velocities|displacements)\b.*)"
+      R"(|structure\.parts\.[^.]+\.(square_net|rhombic_net|hexagonal_net|ring_net|sheet)"
+      R"(|mesh_file|polyline|mesh|through|group)\..*|structure\.mesh_file\..*)");
   return std::regex_match(key, at_time_0);
 }
 
@@ -65,6 +69,8 @@ FlatScene flattened(const core::SceneFile& file) {
   std::vector<core::Complaint> ignored;  // the text is the file's own, read before
   FlatScene flat;
   flatten(core::parse_yaml(file.text(), file.path(), ignored), "", flat);
+  for (const auto& named : file.named_files())
+    flat["content of " + named.filename().string()] = "digest " + core::digest_of_content(named);
   return flat;
 }
 

@@ -9,7 +9,8 @@
 /// What a restart compares: the scene that a checkpoint was written for, and the one it goes on with.
 namespace talus::coupler {
 
-/// A scene's values by their keys, "particles.rocks.block.velocity[1]" -> "-25 m/s", in the order of the keys.
+/// A scene's values by their keys, "particles.rocks.block.velocity[1]" -> "-25 m/s", and the contents of the files it
+/// names, "content of net.msh" -> a digest, in the order of the keys.
 using FlatScene = std::map<std::string, std::string>;
 FlatScene flattened(const core::SceneFile& file);
 /// A line "key: value" for each, and back.

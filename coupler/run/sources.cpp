@@ -71,7 +71,7 @@ InterfaceSource::InterfaceSource(const Interface& interface, const Peer& particl
   }
   if (!surface.triangles.empty()) {
     description_.groups.push_back(
-        boundary_group("boundary_faces", core::CellKind::triangle, surface, surface.triangles));
+        boundary_group("boundary_surface", core::CellKind::triangle, surface, surface.triangles));
   }
 }
 

@@ -109,6 +109,8 @@ void Exchange::release_structure() {
 }
 
 void Exchange::motion_to_boundary_end() {
+  if (particles_.end_displacement.empty())
+    return;  // they take one step, from the motion at the window's start
   mapping_.to_boundary(structure_.displacement, particles_.end_displacement);
   mapping_.to_boundary(structure_.velocity, particles_.end_velocity);
 }

@@ -65,7 +65,8 @@ class Exchange {
     mapping_.to_structure(boundary_force, structure_.force);
   }
   void release_structure();
-  /// The structure's present motion, as the boundary's at the window's end.
+  /// The structure's present motion, as the boundary's at the window's end. Only for particles that take several steps
+  /// a window; others do not look at it.
   void motion_to_boundary_end();
   /// What a window of a strong scheme settles on after its iterations.
   void accept_window();

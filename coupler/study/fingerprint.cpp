@@ -2,11 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <array>
-#include <cstdint>
-#include <fstream>
 #include <vector>
 
+#include "core/input_file.hpp"
 #include "core/scene/reader.hpp"
 #include "coupler/launch/find_solver.hpp"
 
@@ -15,18 +13,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
-
-/// FNV-1a, 64 bits: tells two contents apart; no defence against forgery.
-std::string digest_of_content(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) return "absent";
-  std::uint64_t digest = 0xcbf29ce484222325u;
-  std::vector<char> block(1 << 16);
-  while (stream.read(block.data(), static_cast<std::streamsize>(block.size())), stream.gcount() > 0)
-    for (std::streamsize i = 0; i < stream.gcount(); ++i)
-      digest = (digest ^ static_cast<unsigned char>(block[static_cast<std::size_t>(i)])) * 0x100000001b3u;
-  return fmt::format("{:016x}", digest);
-}
 
 /// Programs of other people's that the scene takes from beside talus or from PATH.
 std::vector<fs::path> solvers_of(const core::SceneFile& scene) {
@@ -53,13 +39,13 @@ std::string changed_file(const json& before, const json& now) {
 Fingerprints::Fingerprints(const fs::path& program, fs::path folder, int threads)
     : folder_(std::move(folder)), threads_(threads) {
   for (const char* name : {"fem_solver", "dem_solver"})
-    programs_ += digest_of_content(program.parent_path() / name) + " ";
-  programs_ += digest_of_content(program);
+    programs_ += core::digest_of_content(program.parent_path() / name) + " ";
+  programs_ += core::digest_of_content(program);
 }
 
 const std::string& Fingerprints::digest_of(const fs::path& file) {
   std::string& digest = digests_[file];
-  if (digest.empty()) digest = digest_of_content(file);
+  if (digest.empty()) digest = core::digest_of_content(file);
   return digest;
 }
 

@@ -1,5 +1,7 @@
 #include "dem_solver/app/adapter.hpp"
 
+#include <fmt/format.h>
+
 #include "core/errors.hpp"
 #include "core/program/command_line.hpp"
 #include "core/program/log.hpp"
@@ -28,7 +30,13 @@ CoupledBoundary receive_boundary(const RunScene& scene, coupler::Participant& pa
   boundary.first_node = boundary.surface.node_count();
   const std::size_t own_segments = boundary.surface.segments.size(),
                     own_triangles = boundary.surface.triangles.size();
-  append(boundary.surface, participant.receive_surface(boundary.node_masses));
+  const mesh::Surface interface = participant.receive_surface(boundary.node_masses);
+  if (interface.node_count() > 0 && interface.cell_count() == 0)
+    throw core::ConfigError(
+        fmt::format("interface.boundary: particles would touch none of its {} nodes, as they have no lines "
+                    "or triangles between them",
+                    interface.node_count()));
+  append(boundary.surface, interface);
   boundary.cells = {.first_segment = own_segments,
                     .segments = boundary.surface.segments.size() - own_segments,
                     .first_triangle = own_triangles};

@@ -25,12 +25,22 @@ int side(const Vector3& u, const Vector3& v, const Vector3& w) {
   return volume > 0 ? 1 : -1;
 }
 
-/// Whether p-q passes through the inside of the face.
+/// Whether p and q are further from a plane than what rounding of a flat surface's coordinates makes.
+bool stand_off(const Vector3& p, const Vector3& q, const Face& f) {
+  constexpr double flat = 1e-9;
+  const auto& [a, b, c] = f.corners;
+  const Vector3 normal = (b - a).cross(c - a).normalized();
+  return std::min(std::abs(normal.dot(p - a)), std::abs(normal.dot(q - a))) > flat * (q - p).norm();
+}
+
+/// Whether p-q passes through the face from one side to the other, be it through one of its edges or corners.
 bool pierces(const Vector3& p, const Vector3& q, const Face& f) {
   const auto& [a, b, c] = f.corners;
   if (side(p - a, b - a, c - a) * side(q - a, b - a, c - a) != -1) return false;
-  const int s = side(q - p, a - p, b - p);
-  return s != 0 && side(q - p, b - p, c - p) == s && side(q - p, c - p, a - p) == s;
+  const auto [least, most] =
+      std::minmax({side(q - p, a - p, b - p), side(q - p, b - p, c - p), side(q - p, c - p, a - p)});
+  if (least == -most) return false;  // past the face; or all are zero: within its plane
+  return least * most != 0 || stand_off(p, q, f);
 }
 
 /// Edges that begin or end at a corner of the other triangle touch it there, and go no further into it.

@@ -1,9 +1,11 @@
 #include "dem_solver/scene/stream_scene.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <set>
 #include <string>
 
 #include "core/scene/plausible.hpp"
@@ -21,7 +23,8 @@ struct Cells {
     const double diameter = 2 * stream.radius.back();
     for (int k = 0; k < 3; ++k) {
       const double extent = stream.high[k] - stream.low[k];
-      count[k] = static_cast<std::int64_t>(std::floor(extent / diameter * (1 + 1e-12)));
+      constexpr double most = 2e6;  // so that their product is a number of 64 bits
+      count[k] = static_cast<std::int64_t>(std::min(most, std::floor(extent / diameter * (1 + 1e-12))));
       size[k] = count[k] > 0 ? extent / static_cast<double>(count[k]) : 0;
     }
   }
@@ -37,6 +40,29 @@ class Uniform {
  private:
   std::mt19937_64 engine_;
 };
+
+/// Selection sampling (Knuth, algorithm S): every choice of cells is equally likely, without a list of them; visit(cell)
+/// in ascending order.
+template <class Visit>
+void walk(std::int64_t cells, std::int64_t wanted, Uniform& random, const Visit& visit) {
+  for (std::int64_t c = 0; c < cells && wanted > 0; ++c) {
+    if (random() * static_cast<double>(cells - c) >= static_cast<double>(wanted)) continue;
+    --wanted;
+    visit(c);
+  }
+}
+
+/// The same for few of very many cells (Floyd's algorithm: J. Bentley, Programming Pearls, 1987): the cost is that of
+/// those wanted.
+template <class Visit>
+void pick(std::int64_t cells, std::int64_t wanted, Uniform& random, const Visit& visit) {
+  std::set<std::int64_t> chosen;
+  for (std::int64_t last = cells - wanted; last < cells; ++last) {
+    const auto c = static_cast<std::int64_t>(random() * static_cast<double>(last + 1));
+    if (!chosen.insert(c).second) chosen.insert(last);
+  }
+  for (const std::int64_t c : chosen) visit(c);
+}
 
 }  // namespace
 
@@ -69,12 +95,7 @@ std::vector<SphereInput> make_stream(const StreamScene& stream, double density) 
   const Cells cells(stream);
   Uniform random(stream.seed);
   std::vector<SphereInput> spheres;
-  std::int64_t left = stream.count;
-  for (std::int64_t c = 0; c < cells.total() && left > 0; ++c) {
-    // Selection sampling (Knuth, algorithm S): every choice of cells is equally likely, without a list of
-    // them.
-    if (random() * static_cast<double>(cells.total() - c) >= static_cast<double>(left)) continue;
-    --left;
+  const auto place = [&](std::int64_t c) {
     const double radius =
         stream.radius.front() * std::pow(stream.radius.back() / stream.radius.front(), random());
     const std::array<std::int64_t, 3> cell{c % cells.count[0], c / cells.count[0] % cells.count[1],
@@ -88,7 +109,12 @@ std::vector<SphereInput> make_stream(const StreamScene& stream, double density) 
                        .spin = {},
                        .radius = radius,
                        .mass = density * 4.0 / 3 * std::numbers::pi * radius * radius * radius});
-  }
+  };
+  constexpr std::int64_t most_walked = 100'000'000;  // half a second
+  if (cells.total() <= most_walked)
+    walk(cells.total(), stream.count, random, place);
+  else
+    pick(cells.total(), stream.count, random, place);
   return spheres;
 }
 

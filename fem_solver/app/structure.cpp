@@ -214,6 +214,12 @@ std::vector<StructuralEffect> Structure::effects(const StructureScene& scene) co
 
 void Structure::check_step(const StructureScene& scene) const {
   if (!is_watched(scene) || bounds_.empty()) return;
+  const double rate = model_.damping_rates.empty() ? 0 : *std::ranges::max_element(model_.damping_rates);
+  if (step_ * rate > 2)  // (1 - rate step/2)/(1 + rate step/2) is left of a velocity
+    throw core::ConfigError(fmt::format(
+        "structure: a mass damping of {:.4g} 1/s turns velocities round within the step of {}, where it "
+        "should only brake them. Take a step of at most {}, or less damping",
+        rate, core::readable(step_, "s"), core::readable(2 / rate, "s")));
   const StepBound& bound = bounds_.front();
   if (step_ <= bound.seconds) return;
   throw core::ConfigError(

@@ -98,21 +98,23 @@ std::vector<double> ExplicitSolver::displacement_at_evaluation() const {
 }
 
 // The velocity half a step before the evaluation follows from the one behind it and the force, so no step has
-// to store it. Before the first step the stored velocity is that at the start, half a kick away from both.
+// to store it. The first evaluation is at the start, whose velocity is half a kick away from both: before the first step
+// it is the one that is stored, behind it the one that follows.
 void ExplicitSolver::add_kinetic(EnergyBalance& balance) const {
-  const bool at_start = state_.steps == 0;
+  const bool before_first = state_.steps == 0, of_start = state_.steps <= 1;
   double twice_kinetic = 0, damped_behind = 0;
   for (std::size_t i = 0; i < state_.velocity.size(); ++i) {
     const double mass = model_.node_masses[i / 3], v = state_.velocity[i];
     const double half_damping = half_damping_of(i / 3);
     const double change = state_.kick * inverse_mass_[i] * state_.force[i];
-    const double after = at_start ? ((1 - half_damping) * v + change) / (1 + half_damping) : v;
-    const double before = at_start ? 2 * v - after : ((1 + half_damping) * v - change) / (1 - half_damping);
+    const double after = before_first ? ((1 - half_damping) * v + change) / (1 + half_damping) : v;
+    const double kicked = before_first ? v : ((1 + half_damping) * v - change) / (1 - half_damping);
+    const double before = of_start ? 2 * kicked - after : kicked;
     twice_kinetic += mass * before * after;
-    if (!damping_rate_.empty()) damped_behind += damping_rate_[i] * mass * 0.5 * (before + after) * after;
+    if (!damping_rate_.empty()) damped_behind += damping_rate_[i] * mass * 0.5 * (kicked + after) * after;
   }
   balance.kinetic = 0.5 * twice_kinetic;
-  if (!at_start) balance.bulk_damping = -0.5 * state_.previous_step * damped_behind;
+  if (!before_first) balance.bulk_damping = -0.5 * state_.previous_step * damped_behind;
 }
 
 }  // namespace talus::fem

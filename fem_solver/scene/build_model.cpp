@@ -7,10 +7,13 @@
 
 #include "core/errors.hpp"
 #include "core/program/log.hpp"
+#include "core/units/units.hpp"
 #include "fem_solver/constraints/held_directions.hpp"
 #include "fem_solver/scene/bar_chains.hpp"
+#include "fem_solver/scene/loose_ends.hpp"
 #include "fem_solver/scene/make_elements.hpp"
 #include "fem_solver/scene/masses.hpp"
+#include "fem_solver/scene/mesh_groups.hpp"
 #include "fem_solver/scene/node_sets.hpp"
 #include "fem_solver/scene/rope_order.hpp"
 #include "fem_solver/scene/unheld_parts.hpp"
@@ -33,6 +36,7 @@ class Builder {
   explicit Builder(const StructureScene& scene) : scene_(scene) {}
 
   Model build() {
+    if (scene_.mesh_file) take_mesh_file();
     mesh_parts();
     if (scene_.weld) weld();
     for (const auto& [name, selection] : scene_.node_sets) {
@@ -53,11 +57,14 @@ class Builder {
     check_masses();
     refuse_folding_chains(model_);
     warn_of_unheld_parts();
+    warn_of_loose_ends();
     return std::move(model_);
   }
 
  private:
+  void take_mesh_file();
   void mesh_parts();
+  void add_group(const std::string& name, const PartScene& part, const std::string& group);
   void add_mesh(const std::string& name, const PartScene& part, const mesh::Net& net);
   void weld();
   void lead_through(const std::string& name, const PartScene& part, const ThroughScene& through);
@@ -69,22 +76,66 @@ class Builder {
   void add_conditions();
   void check_masses() const;
   void warn_of_unheld_parts() const;
+  void warn_of_loose_ends() const;
 
   const StructureScene& scene_;
   Model model_;
   std::vector<MeshedPart> parts_;
   std::vector<Index> part_of_node_;
+  std::map<std::string, mesh::GroupCells> groups_;  ///< that parts take of the structure's mesh file
 };
+
+/// Its nodes count as those of one part where parts are welded: they are joined as the file numbers them.
+void Builder::take_mesh_file() {
+  std::vector<std::string> groups;
+  for (const auto& [name, part] : scene_.parts)
+    if (const auto* group = std::get_if<GroupScene>(&part.shape)) groups.push_back(group->name);
+  MeshGroups mesh = take_groups(*scene_.mesh_file, groups);
+  for (const auto& [name, part] : scene_.parts) {
+    const auto* group = std::get_if<GroupScene>(&part.shape);
+    if (mesh.node_sets.contains(name) && !(group && group->name == name))
+      throw core::ConfigError(fmt::format(
+          "{}: structure.parts.{}: {} has a group of this name, which is not what the part is made of; "
+          "take another name",
+          part.place, name, scene_.mesh_file->path.string()));
+  }
+  constexpr Index of_the_file = -1;
+  model_.reference = std::move(mesh.positions);
+  part_of_node_.assign(static_cast<std::size_t>(model_.nodes()), of_the_file);
+  model_.node_sets = std::move(mesh.node_sets);
+  groups_ = std::move(mesh.cells);
+}
 
 void Builder::mesh_parts() {
   for (const auto& [name, part] : scene_.parts) {
     std::visit(
         [&, &name = name, &part = part](const auto& shape) {
           using Shape = std::decay_t<decltype(shape)>;
-          if constexpr (!std::is_same_v<Shape, ThroughScene>) add_mesh(name, part, generate(shape));
+          if constexpr (std::is_same_v<Shape, GroupScene>)
+            add_group(name, part, shape.name);
+          else if constexpr (!std::is_same_v<Shape, ThroughScene>)
+            add_mesh(name, part, generate(shape));
         },
         part.shape);
   }
+}
+
+void Builder::add_group(const std::string& name, const PartScene& part, const std::string& group) {
+  const mesh::GroupCells& cells = groups_.at(group);
+  parts_.push_back({name, &part, cells.segments, cells.triangles});
+  std::vector<Index>& nodes = model_.node_sets[name];
+  nodes.clear();  // a group of the same name lists the same nodes
+  std::vector<bool> listed(static_cast<std::size_t>(model_.nodes()));
+  const auto list = [&](const auto& elements) {
+    for (const auto& element : elements)
+      for (const Index node : element)
+        if (!listed[static_cast<std::size_t>(node)]) {
+          listed[static_cast<std::size_t>(node)] = true;
+          nodes.push_back(node);
+        }
+  };
+  list(cells.segments);
+  list(cells.triangles);
 }
 
 void Builder::add_mesh(const std::string& name, const PartScene& part, const mesh::Net& net) {
@@ -180,6 +231,10 @@ void Builder::lead_through(const std::string& name, const PartScene& part, const
                     "nearest one left: it "
                     "runs to and fro, as its sets list their nodes",
                     part.place, name, way, shortest));
+  else if (const Index node = first_turn_back(nodes, model_); node >= 0)
+    core::log_warning(fmt::format(
+        "{}: structure.parts.{}: the rope turns back at {}: are its sets in their order along it?",
+        part.place, name, node_name(model_, node)));
   MeshedPart& meshed = parts_.emplace_back(MeshedPart{name, &part, {}, {}});
   for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
     if ((model_.position(nodes[i]) - model_.position(nodes[i + 1])).isZero(0))
@@ -260,6 +315,18 @@ void Builder::warn_of_unheld_parts() const {
   for (const auto& parts : unheld_parts(model_))
     core::log_warning(
         fmt::format("structure: nothing holds {}: it falls or floats freely", fmt::join(parts, ", ")));
+}
+
+void Builder::warn_of_loose_ends() const {
+  constexpr std::size_t most = 5;
+  const auto ends = loose_ends(model_);
+  for (std::size_t k = 0; k < std::min(most, ends.size()); ++k)
+    core::log_warning(fmt::format(
+        "structure: {}{}", ends[k],
+        scene_.weld ? fmt::format(": weld.tolerance is {}", core::readable(scene_.weld->tolerance, "m"))
+                    : std::string(": `weld` joins parts where their nodes coincide")));
+  if (ends.size() > most)
+    core::log_warning(fmt::format("structure: {} more ends of lines hang beside a node", ends.size() - most));
 }
 
 }  // namespace

@@ -68,7 +68,7 @@ void describe(core::Fields& fields, PointMassScene& mass) {
                   {.unit = "kg",
                    .range = core::positive,
                    .help = "added to each of the nodes",
-                   .plausible = core::plausible::rock_mass});
+                   .plausible = core::plausible::point_mass});
 }
 
 void describe(core::Fields& fields, InitialDisplacementScene& initial) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/scene/plausible.hpp"
@@ -15,7 +16,8 @@ void describe_breaking_load(core::Fields& fields, std::optional<double>& load) {
       {.unit = "N",
        .range = core::positive,
        .help = "known strength, for the utilisation that `output.largest_forces` tells; nothing breaks "
-               "by it"});
+               "by it",
+       .plausible = core::plausible::strength_in_force});
 }
 
 void describe_axial(core::Fields& fields, AxialScene& axial) {
@@ -52,9 +54,11 @@ void describe(core::Fields& fields, BarScene& bar) {
            "with the load at which an element that is hinged at both ends buckles; nothing buckles by it"});
 }
 void describe(core::Fields& fields, BreaksScene& breaks) {
-  fields.optional(
-      "force", breaks.force,
-      {.unit = "N", .range = core::positive, .help = "axial force above which an element is lost"});
+  fields.optional("force", breaks.force,
+                  {.unit = "N",
+                   .range = core::positive,
+                   .help = "axial force above which an element is lost",
+                   .plausible = core::plausible::strength_in_force});
   fields.optional(
       "strain", breaks.strain,
       {.range = core::positive, .help = "change of length over reference length above which it is lost"});
@@ -131,7 +135,21 @@ void describe(core::Fields& fields, BrakeScene& brake) {
       "table", brake.table,
       {.unit = "m, N", .help = "pairs of elongation and force, from (0, 0); the last one ends the travel"});
   fields.required("mass_per_length", brake.mass_per_length,
-                  {.unit = "kg/m", .range = core::positive, .help = "of the reference length"});
+                  {.unit = "kg/m",
+                   .range = core::positive,
+                   .help = "of the reference length",
+                   .plausible = core::plausible::mass_per_length});
+  double travel = 0, force = 0;
+  for (const auto& [elongation, at] : brake.table) {
+    travel = std::max(travel, elongation);
+    force = std::max(force, at);
+  }
+  constexpr double longest = 1000, weakest = 0.1;  // m, N
+  fields.rule(
+      brake.table.empty() || (travel < longest && force > weakest), "table",
+      fmt::format(
+          "reaches {:g} m and {:g} N, which no brake does: millimetres are written mm, kilonewtons kN",
+          travel, force));
   describe_breaking_load(fields, brake.breaking_load);
   fields.section("end_stop", brake.end_stop,
                  "what happens past the travel; the initial stiffness where absent");

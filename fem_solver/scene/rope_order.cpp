@@ -73,4 +73,14 @@ double way_to_nearest(const std::vector<Index>& nodes, const Model& model) {
   return way;
 }
 
+Index first_turn_back(const std::vector<Index>& nodes, const Model& model) {
+  constexpr double back = -0.17365;  // cosine of 100 degrees
+  for (std::size_t k = 1; k + 1 < nodes.size(); ++k) {
+    const Vector3 here = model.position(nodes[k]), before = here - model.position(nodes[k - 1]),
+                  after = model.position(nodes[k + 1]) - here;
+    if (before.dot(after) < back * before.norm() * after.norm()) return nodes[k];
+  }
+  return -1;
+}
+
 }  // namespace talus::fem

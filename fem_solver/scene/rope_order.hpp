@@ -20,5 +20,7 @@ void put_in_order(std::vector<RopeStretch>& stretches, const Model& model);
 double way_along(const std::vector<Index>& nodes, const Model& model);
 /// m; from the first node always on to the nearest one that is left: what a rope that does not run to and fro is not much longer than.
 double way_to_nearest(const std::vector<Index>& nodes, const Model& model);
+/// The first node at which the way turns by more than 100 degrees; -1: nowhere.
+Index first_turn_back(const std::vector<Index>& nodes, const Model& model);
 
 }  // namespace talus::fem

@@ -55,12 +55,19 @@ void describe(core::Fields& fields, ThroughScene& through) {
   fields.optional("to", through.to, {.unit = "m", .help = "an own end after the last of these nodes"});
 }
 
+void describe(core::Fields& fields, GroupScene& group) {
+  fields.required("name", group.name, {.help = "of a physical group of `structure.mesh_file`"});
+}
+
 void describe_shape(core::Fields& fields, ShapeScene& shape) {
   fields.one_of(shape, mesh::net_alternatives({{"sheet", "a panel filled with triangles"},
                                                {"mesh_file", "a mesh made elsewhere"},
                                                {"polyline", "a rope or bar along straight lines"},
                                                {"mesh", "nodes and elements written out"},
-                                               {"through", "a rope through nodes of other parts"}}));
+                                               {"through", "a rope through nodes of other parts"},
+                                               {"group",
+                                                "a group of the structure's mesh file, whose groups "
+                                                "share their nodes"}}));
 }
 
 mesh::Net generate(const PolylineScene& polyline) {

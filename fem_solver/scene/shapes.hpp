@@ -40,8 +40,15 @@ struct ThroughScene {
 };
 void describe(core::Fields& fields, ThroughScene& through);
 
-using ShapeScene =
-    mesh::NetChoice<mesh::SheetScene, mesh::MeshFileScene, PolylineScene, MeshScene, ThroughScene>;
+/// `group:` elements of the structure's own mesh file, with the nodes that its groups share. Node sets: nodes; and the
+/// structure's, one for each group of the file.
+struct GroupScene {
+  std::string name;
+};
+void describe(core::Fields& fields, GroupScene& group);
+
+using ShapeScene = mesh::NetChoice<mesh::SheetScene, mesh::MeshFileScene, PolylineScene, MeshScene,
+                                   ThroughScene, GroupScene>;
 void describe_shape(core::Fields& fields, ShapeScene& shape);
 
 mesh::Net generate(const PolylineScene& polyline);

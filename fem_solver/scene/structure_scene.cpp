@@ -114,8 +114,20 @@ bool constrained_slides(const StructureScene& structure) {
 void describe(core::Fields& fields, StructureScene& structure) {
   fields.optional("solver", structure.solver,
                   {.help = "another program that plays the structure's part, e.g. my_solver.py"});
+  fields.section("mesh_file", structure.mesh_file,
+                 "one mesh of many parts, which take its groups by `group` and share its nodes");
+  fields.rule(!structure.mesh_file || !structure.mesh_file->part, "mesh_file.part",
+              "does not belong here: each part takes its own, by `group: {name: ...}`");
   fields.map("parts", structure.parts,
              "nets, ropes, posts and membranes by name: a shape and an element each", 1);
+  const auto takes_group = [](const auto& part) {
+    return std::holds_alternative<GroupScene>(part.second.shape);
+  };
+  const bool grouped = std::ranges::any_of(structure.parts, takes_group);
+  fields.rule(!grouped || structure.mesh_file, "parts",
+              "take a `group`, which needs `structure.mesh_file` to take it from");
+  fields.rule(grouped || !structure.mesh_file, "mesh_file",
+              "is taken by no part: write `group: {name: ...}` as a part's shape");
   fields.section("weld", structure.weld, "joins parts where their nodes coincide");
   fields.map("slides", structure.slides, "nodes that run along ropes of bars or cables, by name");
   fields.map("obstacles", structure.obstacles, "what nodes run against, such as the ground, by name");

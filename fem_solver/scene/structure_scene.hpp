@@ -100,6 +100,7 @@ struct StructureScene {
   std::optional<DampingScene> damping;
   std::optional<core::Vector3> gravity;                      ///< m/s^2
   std::vector<std::pair<double, double>> gravity_over_time;  ///< s, factor
+  std::optional<mesh::MeshFileScene> mesh_file;
   std::vector<std::pair<std::string, PartScene>> parts;
   std::optional<WeldScene> weld;
   std::vector<NamedSlide> slides;

@@ -59,16 +59,29 @@ void write_mesh_file(const Net& net, const std::filesystem::path& path) {
   if (!out) refuse(path, "cannot be written");
 }
 
-Net extract_part(const Net& net, const std::string& name) {
+GroupCells cells_of_group(const Net& net, const std::string& group) {
   const auto& sets = net.cell_sets;
-  const auto set = std::find_if(sets.begin(), sets.end(), [&](const CellSet& s) { return s.name == name; });
+  const auto set = std::find_if(sets.begin(), sets.end(), [&](const CellSet& s) { return s.name == group; });
   if (set == sets.end()) {
     std::vector<std::string> names;
     for (const auto& each : sets) names.push_back(each.name);
     throw core::ConfigError(fmt::format(
-        "there is no part '{}' in the mesh; there {}", name,
+        "there is no part '{}' in the mesh; there {}", group,
         names.empty() ? "are none: leave `part` out" : fmt::format("are: {}", fmt::join(names, ", "))));
   }
+  GroupCells cells;
+  for (const Index k : set->segments)
+    cells.segments.push_back(net.surface.segments[static_cast<std::size_t>(k)]);
+  for (const Index k : set->triangles) {
+    auto triangle = net.surface.triangles[static_cast<std::size_t>(k)];
+    if (std::binary_search(set->turned.begin(), set->turned.end(), k)) std::swap(triangle[1], triangle[2]);
+    cells.triangles.push_back(triangle);
+  }
+  return cells;
+}
+
+Net extract_part(const Net& net, const std::string& name) {
+  const GroupCells cells = cells_of_group(net, name);
   Net result;
   std::vector<Index> new_index(static_cast<std::size_t>(net.surface.node_count()), -1);
   const auto carry = [&](auto cell) {
@@ -82,13 +95,8 @@ Net extract_part(const Net& net, const std::string& name) {
     }
     return cell;
   };
-  for (const Index k : set->segments)
-    result.surface.segments.push_back(carry(net.surface.segments[static_cast<std::size_t>(k)]));
-  for (const Index k : set->triangles) {
-    auto triangle = carry(net.surface.triangles[static_cast<std::size_t>(k)]);
-    if (std::binary_search(set->turned.begin(), set->turned.end(), k)) std::swap(triangle[1], triangle[2]);
-    result.surface.triangles.push_back(triangle);
-  }
+  for (const auto& segment : cells.segments) result.surface.segments.push_back(carry(segment));
+  for (const auto& triangle : cells.triangles) result.surface.triangles.push_back(carry(triangle));
   result.surface.parts.push_back({.name = name,
                                   .segment_end = static_cast<Index>(result.surface.segments.size()),
                                   .triangle_end = static_cast<Index>(result.surface.triangles.size())});

@@ -18,6 +18,14 @@ Net read_mesh_file(const std::filesystem::path& path);
 /// @throws core::ConfigError if the file cannot be written or the kind does not take the mesh
 void write_mesh_file(const Net& net, const std::filesystem::path& path);
 
+/// The cells of a group with the net's own numbers of nodes, turned as the group lists its triangles.
+struct GroupCells {
+  std::vector<std::array<Index, 2>> segments;
+  std::vector<std::array<Index, 3>> triangles;
+};
+/// @throws core::ConfigError naming the groups there are, if it is not among them
+GroupCells cells_of_group(const Net& net, const std::string& group);
+
 /// One of a file's cell sets alone, turned as it lists its triangles, with the nodes it uses and the node
 /// sets cut down to them.
 /// @throws core::ConfigError naming the sets there are, if it is not among them

@@ -21,8 +21,8 @@ void describe(core::Fields& fields, MeshFileScene& file) {
       "join", file.join,
       {.unit = "m",
        .range = core::not_negative,
-       .help = "joins nodes of open rims and line ends up to this distance; absent: only what is at "
-               "the same place, and an error where nodes nearly are"});
+       .help = "joins nodes up to this distance; absent: only what is at the same place, and an error where "
+               "nodes nearly are, or lie on the edge of another cell"});
 }
 
 namespace {
@@ -47,9 +47,9 @@ Net read(const MeshFileScene& file) {
 Net generate(const MeshFileScene& file) {
   Net net = read(file);
   place(net.surface, file);
-  if (file.join) net = join_loose_nodes(net, *file.join, file.path.string());
+  if (file.join) net = join_near_nodes(net, *file.join, file.path.string());
   check(net.surface, file.path.string());
-  if (!file.join) refuse_nearly_joined(net.surface, file.path.string());
+  if (!file.join) refuse_torn(net.surface, file.path.string());
   return net;
 }
 

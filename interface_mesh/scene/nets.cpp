@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/scene/plausible.hpp"
+
 namespace talus::mesh {
 
 namespace {
@@ -14,7 +16,10 @@ constexpr double most_segments = 2e7;
 
 void describe_wire(core::Fields& fields, double& wire_diameter) {
   fields.required("wire_diameter", wire_diameter,
-                  {.unit = "m", .range = core::positive, .help = "diameter of a single wire"});
+                  {.unit = "m",
+                   .range = core::positive,
+                   .help = "diameter of a single wire",
+                   .plausible = core::plausible::wire_diameter});
 }
 
 void require_two(core::Fields& fields, const std::vector<double>& lengths, const char* key) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/scene/plausible.hpp"
 #include "interface_mesh/net_patterns.hpp"
 #include "interface_mesh/open_rim.hpp"
 #include "interface_mesh/square_net.hpp"
@@ -44,9 +45,11 @@ void describe(core::Fields& fields, SquareNetScene& net) {
   describe(fields, net.panel);
   fields.required("pitch", net.pitch,
                   {.unit = "m", .range = core::positive, .help = "distance of neighbouring wires"});
-  fields.with_default(
-      "wire_diameter", net.wire_diameter,
-      {.unit = "m", .range = core::not_negative, .help = "thickness of the wires in contact"});
+  fields.with_default("wire_diameter", net.wire_diameter,
+                      {.unit = "m",
+                       .range = core::not_negative,
+                       .help = "thickness of the wires in contact",
+                       .plausible = core::plausible::wire_diameter});
   fields.choice("rim", net.rim, {"wires", "open"},
                 "what runs along the outline: wires, or nothing where the structure adds ropes of its own");
   if (net.pitch <= 0 || !net.panel.size) return;

@@ -125,5 +125,21 @@ class StartsInside(Inputs):
         self.refused("starts_inside/g_coupled_overlaps_net", "talus", "particles.spheres.boulder: starts inside of a wire of `net`, by 43.49 mm")
 
 
+class BarrierTraps(Inputs):
+    """Mistakes of who writes a barrier by hand: the run goes on, as each could be meant."""
+
+    def warned(self, scene: str, *words: str) -> None:
+        tried = Run(FIELD / f"barrier/{scene}.yaml", "time: {end: 0.1 ms}\noutput: {fields_every: ~, every: 0.1 ms}\n")
+        self.assertEqual(tried.done.returncode, 0, tried.done.stderr)
+        for word in words:
+            self.assertIn(word, tried.done.stderr)
+
+    def test_an_end_that_misses_its_post_is_named_with_its_distance(self):
+        self.warned("trap_loose_rope_end", "structure: node", "of retaining_2w", "and is not joined with it: weld.tolerance is 1 mm")
+
+    def test_posts_swapped_in_a_rope_are_named_where_it_turns_back(self):
+        self.warned("trap_rope_order", "structure.parts.upper: the rope turns back at")
+
+
 if __name__ == "__main__":
     unittest.main(argv=["field_inputs_test"])

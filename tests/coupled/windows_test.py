@@ -45,6 +45,17 @@ class FreeFlight(unittest.TestCase):
         off = grown.column("net_centre.displacement_z_m") - regular.column("net_centre.displacement_z_m")
         self.assertLess(np.abs(off).max(), 1e-9)
 
+    def test_particles_whose_step_fills_the_longest_window_fly_as_far(self):
+        # Free fall is the same in any steps, so the boulder is where it was with short ones when it touches.
+        span = "time: {end: 36 ms}\noutput: {fields_every: ~}\n"
+        short = Run("examples/cable_net_free_flight", span)
+        for step in ("0.5 ms", "2 ms"):
+            with self.subTest(step):
+                long = Run("examples/cable_net_free_flight", span + f"particles: {{step: {step}}}\n")
+                self.assertGreater(long.summary["free_flight"]["regular_windows_spared"], 5000)
+                off = long.column("boulder.position_z_m") - short.column("boulder.position_z_m")
+                self.assertLess(np.abs(off).max(), 1e-9)
+
     def test_windows_grow_only_where_both_sides_have_steps_of_their_own(self):
         run = Run("examples/cable_net", "time: {step: ~}\nstructure: {step: 50 us}\ncoupling: {window: 50 us, longest_window: 1 ms}\n")
         self.assertEqual(run.done.returncode, 2)

@@ -131,8 +131,18 @@ def a_look_at_a_scene_starts_no_program_that_it_names_unless_it_is_trusted():
     check(started.exists() and trusted.stdout == whole.stdout and str(program) in trusted.stderr, trusted)
 
 
+def what_cannot_be_printed_is_an_error_of_the_machine():
+    scene = pathlib.Path(tempfile.mkdtemp()) / "scene.yaml"
+    scene.write_text(f"extends: {DISK}/cable_net.yaml\n")
+    for command in (["schema"], ["check", scene]):
+        with open("/dev/full", "w") as full:
+            done = subprocess.run([BUILD / "bin/talus", *command], stdout=full, stderr=subprocess.PIPE, text=True, timeout=120)
+        done.stdout = ""
+        check(done.returncode == MACHINE and len(errors(done)) == 1, done)
+
+
 def main() -> None:
-    cases = [a_look_at_a_scene_starts_no_program_that_it_names_unless_it_is_trusted]
+    cases = [what_cannot_be_printed_is_an_error_of_the_machine, a_look_at_a_scene_starts_no_program_that_it_names_unless_it_is_trusted]
     mounted = [a_disk_that_fills_up_ends_a_run_as_failed_with_the_cause, a_disk_that_is_full_from_the_start_is_said_in_one_sentence,
                what_a_run_on_a_full_disk_left_is_replaced_once_there_is_room, a_folder_that_is_read_only_is_an_error_of_the_machine,
                a_run_goes_on_where_only_a_checkpoint_finds_no_room,

@@ -139,6 +139,19 @@ TEST_CASE("a name that would break a column header is refused") {
         "scene.yaml:1:19: section.parts.a,b: a name is made of letters, digits, _ and - only");
 }
 
+TEST_CASE("a name needs a character") {
+  CHECK(complaints_about<Net>(
+            "section: {parts: {'': {area: 1, density: 1}}, ropes: [{area: 1, density: 1}]}") ==
+        "scene.yaml:1:19: section.parts.: a name is made of letters, digits, _ and - only");
+}
+
+TEST_CASE("a decimal comma in a list of keys is named as one") {
+  CHECK(
+      complaints_about<Cable>("section: {area: 1, density: 0,5}") ==
+      "scene.yaml:1:29: section.density: must be greater than 0 kg/m^3, but is 0 kg/m^3\n"
+      "scene.yaml:1:31: section.5: is no key: a comma parts entries here; decimals are written with a point");
+}
+
 TEST_CASE("all complaints of a file come at once, in the order of the file") {
   CHECK(complaints_about<Net>("section:\n  parts:\n    net: {area: 4 kg, densty: 2}\n  ropes: [{area: 0, "
                               "density: 1, area: 2}]\n  cells: x\n") ==

@@ -193,6 +193,12 @@ TEST_CASE(
          p.surface.segments[0] = {1, 1};
        }},
       {"10 coordinates; three a node", [](auto& p) { p.surface.positions.push_back(0); }},
+      {"segment 0 (nodes 0 and 1) has no length", [](auto& p) { p.surface.positions[3] = 0; }},
+      {"triangle 0 (nodes 0, 1, 2) has no area",
+       [](auto& p) {
+         p.surface.positions[6] = 2;
+         p.surface.positions[7] = 0;
+       }},
       {"the position of node 1 is nan", [](auto& p) { p.surface.positions[4] = std::nan(""); }},
       {"part 'net' has the segments 0 to 3, but there are 2",
        [](auto& p) { p.surface.parts[0].segment_end = 3; }},
@@ -227,6 +233,8 @@ TEST_CASE("a declaration that lies is refused with what is wrong") {
       {"the use of forces has the unknown number 9", [&](auto& d) { kind(d.force_use, 9); }},
       {"the name of a probe is ''", [](auto& d) { d.outputs.probes[0].name = ""; }},
       {"the name of a probe is 'a,b'", [](auto& d) { d.outputs.probes[0].name = "a,b"; }},
+      {"the name 'time_s' is that of the table's own first column",
+       [](auto& d) { d.outputs.probes[0].name = "time_s"; }},
       {"the name 'a.kinetic_J' is given twice", [](auto& d) { d.outputs.probes[0].name = "a.kinetic_J"; }},
       {"ledger line 'a.kinetic_J' has the unknown kind 7",
        [&](auto& d) { kind(d.outputs.ledger[0].kind, 7); }},

@@ -2,6 +2,8 @@
 
 #include <catch2/catch.hpp>
 
+#include "tests/support/folder.hpp"
+
 using namespace talus;
 using namespace talus::coupler;
 
@@ -40,6 +42,28 @@ TEST_CASE("a body, a stream or initial velocities that are new are a new state")
               "streams: {s: {low: [0, 0, 0]}}}\nstructure: {initial_velocities: [{part: net}]}");
   CHECK(different.state.size() == 3 + 3 + 1);
   CHECK(texts(different.changed) == Texts{"particles.spheres.a.radius: 1, new against the checkpoint"});
+}
+
+TEST_CASE("a structure that stands elsewhere is a new state") {
+  const auto different =
+      between("structure: {parts: {net: {square_net: {corner: [0, 0, 0]}, cable: {area: 1}}}}",
+              "structure: {parts: {net: {square_net: {corner: [0, 0, 1 m]}, cable: {area: 2}}}}");
+  CHECK(texts(different.state) ==
+        Texts{"structure.parts.net.square_net.corner[2]: 1 m, in the checkpoint 0"});
+  CHECK(texts(different.changed) == Texts{"structure.parts.net.cable.area: 2, in the checkpoint 1"});
+}
+
+TEST_CASE("another content of a file that the scene names is a change, although its key is not") {
+  test::Folder folder("contents");
+  folder.add("wall.obj", "v 0 0 0\n")
+      .add("scene.yaml", "particles: {boundaries: {wall: {mesh_file: {path: wall.obj}}}}\n");
+  const auto flat = [&] { return flattened(core::SceneFile::load(folder / "scene.yaml")); };
+  const FlatScene before = flat_scene(text_of(flat()));
+  CHECK(texts(difference(before, flat()).changed) == Texts{});
+  folder.add("wall.obj", "v 0 0 1\n");
+  const auto changed = difference(before, flat()).changed;
+  REQUIRE(changed.size() == 1);
+  CHECK(changed.front().key == "content of wall.obj");
 }
 
 TEST_CASE("the same values in other words, a later end and other outputs are no difference") {

@@ -255,6 +255,25 @@ TEST_CASE(
   CHECK_THAT(closed_surface_fault(pyramids), Contains("crosses itself: triangles"));
 }
 
+TEST_CASE("a surface whose sides cross edge on edge crosses itself") {
+  // A prism on a bow tie, one shell: its left wing is inside out, so the volumes of both would be taken from each other.
+  const mesh::Surface prism{
+      .positions = {0, -1, 0, 1, 0, 0, -2, 0, 0, 0, 2, 0, 0, -1, 1, 1, 0, 1, -2, 0, 1, 0, 2, 1},
+      .triangles = {{0, 1, 5},
+                    {0, 5, 4},
+                    {1, 2, 6},
+                    {1, 6, 5},
+                    {2, 3, 7},
+                    {2, 7, 6},
+                    {3, 0, 7},
+                    {0, 4, 7},
+                    {0, 2, 1},
+                    {0, 3, 2},
+                    {4, 5, 6},
+                    {4, 6, 7}}};
+  CHECK_THAT(closed_surface_fault(prism), Contains("crosses itself: triangles"));
+}
+
 TEST_CASE("flat faces of many triangles do not cross themselves, however they are turned") {
   mesh::Surface block = cube();
   for (int round = 0; round < 3; ++round) {

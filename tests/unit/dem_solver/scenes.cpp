@@ -75,6 +75,33 @@ TEST_CASE("Bad particle scenes are refused with a message that says what to do")
              Contains("particles.gates") && Contains("may not be named `probes`"));
 }
 
+TEST_CASE(
+    "few spheres in a box of very many places are all over it, none in the place of another") {  // of 1e11
+  dem::StreamScene stream{.material = "rock",
+                          .count = 2000,
+                          .radius = {0.05},
+                          .low = {0, 0, 0},
+                          .high = {600, 600, 300},
+                          .seed = 3};
+  const auto spheres = dem::make_stream(stream, 2500);
+  REQUIRE(spheres.size() == 2000);
+  core::Vector3 mean = core::Vector3::Zero();
+  for (const auto& s : spheres) {
+    const core::Vector3 at(s.position.x, s.position.y, s.position.z);
+    CHECK(((at.array() >= 0.05) && (at.array() <= stream.high.array() - 0.05)).all());
+    mean += at / 2000;
+  }
+  // Of uniform places: half of the box, to four standard errors, extent/sqrt(12 n) = 0.65 % of the extent.
+  for (int k = 0; k < 3; ++k) CHECK(std::abs(mean[k] / stream.high[k] - 0.5) < 4 * 0.0065);
+  for (std::size_t i = 0; i < spheres.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      const core::Vector3 apart(spheres[i].position.x - spheres[j].position.x,
+                                spheres[i].position.y - spheres[j].position.y,
+                                spheres[i].position.z - spheres[j].position.z);
+      if (apart.norm() < 0.1) FAIL("two spheres overlap");
+    }
+}
+
 TEST_CASE("Angles as coefficients, frequencies as spins and other lost units of particles are refused") {
   using Catch::Contains;
   dem::ParticlesScene scene;

@@ -127,6 +127,24 @@ TEST_CASE("damping, loads, gravity and moving supports close the energy balance"
     CHECK(largest.*line > 0.2 * largest_kinetic);
 }
 
+TEST_CASE("the balance of a braked oscillator closes from its first step on") {
+  Model model = tests::oscillator();
+  const double limit = Run::limit(model);
+  tests::damp(model, {.mass = 0.2 / limit});
+  Run run(std::move(model), 0.5 * limit);
+  run.solver.state().velocity[3] = 1e-6;  // small enough that the bar is linear to 1e-9
+  const double start = total(run.solver.balance());
+  CHECK(start == Approx(run.solver.balance().kinetic).epsilon(1e-12));
+  double damped = 0;
+  for (int k = 0; k < 30; ++k) {
+    run.steps(1);
+    const EnergyBalance balance = run.solver.balance();
+    CHECK(total(balance) == Approx(start).epsilon(1e-8));
+    damped = balance.bulk_damping;
+  }
+  CHECK(damped > 0.5 * start);
+}
+
 TEST_CASE("a supported node follows its prescribed motion and its neighbours feel it") {
   Model model = tests::chain<BarBatch>(tests::steel, 1, 4);
   model.supports = {tests::fixed({0})};

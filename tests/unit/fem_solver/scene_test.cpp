@@ -102,6 +102,15 @@ TEST_CASE("a step above the limit is refused unless the scene insists") {
   CHECK(complaint(line + "  step: 1 ms\n  unstable_step: allowed\n") == "no complaint");
 }
 
+TEST_CASE("mass damping that would turn velocities round within a step is refused") {
+  const std::string step = "  step: 100 us\n";
+  CHECK_THAT(
+      complaint(line + step + "  damping: {mass: 20100}\n"),
+      Catch::Contains("a mass damping of 2.01e+04 1/s turns velocities round within the step of 100 us") &&
+          Catch::Contains("at most 99.5 us"));
+  CHECK(complaint(line + step + "  damping: {mass: 19900}\n") == "no complaint");
+}
+
 TEST_CASE("mass scaling of a scene makes its step stable, and other methods than explicit refuse it") {
   const std::string scaled = line + "  step: 1 ms\n  mass_scaling: {step: 1.1 ms}\n";
   const Structure structure(scene(scaled));

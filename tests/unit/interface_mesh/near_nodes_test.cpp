@@ -47,17 +47,36 @@ TEST_CASE("what is near is measured by the edges beside it, at every size of the
     }
 }
 
-TEST_CASE("nodes inside a surface are not loose, ends of lines are") {
-  // A square of four triangles about a middle, beside which a lone line ends.
+TEST_CASE("nodes in the middle of ropes or sheets are found like those of rims and ends") {
+  // Two ropes that cross in their middles, a ten-millionth apart; a sheet of four triangles, above whose middle a line
+  // ends.
   mesh::Surface surface{
-      .positions = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0.5, 0.5, 0, 0.5, 0.5, 1e-6, 0.5, 0.5, 1},
-      .segments = {{5, 6}},
-      .triangles = {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}}};
-  CHECK(mesh::nearly_joined(surface).empty());
-  surface.positions.insert(surface.positions.end(), {0.5, 0.5, 2e-6, 0.5, 0, 1});
-  surface.segments.push_back({7, 8});
-  REQUIRE(mesh::nearly_joined(surface).size() == 1);
-  CHECK(mesh::nearly_joined(surface)[0].second == 7);
+      .positions = {-1, 0, 0, 0, 0, 0, 1, 0, 0, 0, -1,  0,   0, 0,   1e-7, 0,    1,   0,   5, 0,
+                    0,  6, 0, 0, 6, 1, 0, 5, 1, 0, 5.5, 0.5, 0, 5.5, 0.5,  1e-6, 5.5, 0.5, 1},
+      .segments = {{0, 1}, {1, 2}, {3, 4}, {4, 5}, {11, 12}},
+      .triangles = {{6, 7, 10}, {7, 8, 10}, {8, 9, 10}, {9, 6, 10}}};
+  const auto pairs = mesh::nearly_joined(surface);
+  REQUIRE(pairs.size() == 2);
+  CHECK((pairs[0].first == 1 && pairs[0].second == 4));
+  CHECK((pairs[1].first == 10 && pairs[1].second == 11));
+}
+
+TEST_CASE("a node that lies on an edge it is no end of tears a mesh, one beside it does not") {
+  // A triangle, and two that share its long side but divide it; a rope that ends in the middle of another's segment.
+  const auto found = [](double off) {
+    const mesh::Surface surface{.positions = {0, 0, 0, 2, 0, 0, 1, 1,   0,   1, -off, 0, 1, -1,
+                                              0, 5, 0, 0, 7, 0, 0, 6.2, off, 0, 6.2,  1, 0},
+                                .segments = {{5, 6}, {7, 8}},
+                                .triangles = {{0, 1, 2}, {0, 4, 3}, {3, 4, 1}}};
+    return mesh::nodes_on_edges(surface);
+  };
+  for (const double off : {0.0, 9e-4}) {
+    const auto nodes = found(off);
+    REQUIRE(nodes.size() == 2);
+    CHECK((nodes[0].node == 3 && nodes[0].edge == std::array<Index, 2>{0, 1}));
+    CHECK((nodes[1].node == 7 && nodes[1].edge == std::array<Index, 2>{5, 6}));
+  }
+  CHECK(found(2.1e-3).empty());
 }
 
 TEST_CASE("nearly equal nodes are those that a comparison of all pairs finds") {
@@ -90,13 +109,13 @@ TEST_CASE("nearly equal nodes are those that a comparison of all pairs finds") {
 }
 
 TEST_CASE("a tolerance joins a torn sheet and nothing that is further apart") {
-  const auto joined = mesh::join_loose_nodes(torn_sheet(1e-6), 2e-6, "sheet.stl");
+  const auto joined = mesh::join_near_nodes(torn_sheet(1e-6), 2e-6, "sheet.stl");
   CHECK(joined.surface.node_count() == 4);
   CHECK(joined.surface.triangles == std::vector<std::array<Index, 3>>{{0, 1, 2}, {1, 3, 2}});
   CHECK(joined.node_sets[0].nodes == std::vector<Index>{0, 1, 2, 3});
-  CHECK(mesh::join_loose_nodes(torn_sheet(1e-6), 5e-7, "sheet.stl").surface.node_count() == 6);
-  CHECK(mesh::join_loose_nodes(torn_sheet(0), 0, "sheet.stl").surface.node_count() == 4);
-  CHECK_THROWS_WITH(mesh::join_loose_nodes(torn_sheet(1e-6), 1.1, "sheet.stl"),
+  CHECK(mesh::join_near_nodes(torn_sheet(1e-6), 5e-7, "sheet.stl").surface.node_count() == 6);
+  CHECK(mesh::join_near_nodes(torn_sheet(0), 0, "sheet.stl").surface.node_count() == 4);
+  CHECK_THROWS_WITH(mesh::join_near_nodes(torn_sheet(1e-6), 1.1, "sheet.stl"),
                     Catch::Contains("sheet.stl: `join` of 1.1 m would join both ends of an edge"));
 }
 
@@ -110,7 +129,7 @@ TEST_CASE("a scene is told of nearly equal nodes with their distance, and decide
     return mesh::generate(scene).surface.node_count();
   };
   CHECK_THROWS_WITH(nodes(""),
-                    Catch::Contains("sheet.obj: 1 pair(s) of loose nodes are nearly at the same place") &&
+                    Catch::Contains("sheet.obj: 1 pair(s) of nodes are nearly at the same place") &&
                         Catch::Contains("by 1e-07 m: nodes 1 and 3 at (1, 0, 0) m") &&
                         Catch::Contains("`join: 2e-07 m` joins them, `join: 0 m` leaves them apart"));
   CHECK(nodes(", join: 2e-7 m") == 4);

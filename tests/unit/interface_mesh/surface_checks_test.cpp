@@ -61,6 +61,16 @@ TEST_CASE("a triangle turned over against its neighbour is found") {
         "triangle 1 is turned over against its neighbour across the edge of nodes 0 and 2 at (0, 0, 0) m");
 }
 
+TEST_CASE("a cell that is there twice is a fault, whichever way it is turned") {
+  mesh::Surface surface{.positions = {0, 0, 0, 1, 0, 0, 0, 1, 0},
+                        .segments = {{0, 1}, {1, 2}, {1, 0}},
+                        .triangles = {{0, 1, 2}, {2, 1, 0}}};
+  const auto found = mesh::faults(surface);
+  REQUIRE(found.size() == 2);
+  CHECK(found[0].rfind("segment 2 has the same corners as segment 0", 0) == 0);
+  CHECK(found[1].rfind("triangle 1 has the same corners as triangle 0", 0) == 0);
+}
+
 TEST_CASE("a position that is not finite is a fault") {
   auto surface = two_triangles();
   surface.positions[4] = std::numeric_limits<double>::quiet_NaN();

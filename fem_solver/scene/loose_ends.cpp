@@ -1,0 +1,88 @@
+#include "fem_solver/scene/loose_ends.hpp"
+
+#include <fmt/format.h>
+
+#include <nanoflann.hpp>
+
+#include "core/units/units.hpp"
+#include "fem_solver/constraints/held_directions.hpp"
+
+namespace talus::fem {
+namespace {
+
+constexpr double share_of_element = 0.05;
+
+struct PointCloud {
+  const std::vector<double>& positions;
+  std::size_t kdtree_get_point_count() const { return positions.size() / 3; }
+  double kdtree_get_pt(std::size_t node, std::size_t direction) const {
+    return positions[3 * node + direction];
+  }
+  template <class Box>
+  bool kdtree_get_bbox(Box&) const {
+    return false;
+  }
+};
+using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, PointCloud>, PointCloud,
+                                                 3, std::size_t>;
+
+/// What meets at a node.
+struct Meeting {
+  int elements = 0;
+  Index other = -1;  ///< of the last element with two nodes
+};
+
+std::vector<Meeting> meetings(const Model& model) {
+  std::vector<Meeting> at(static_cast<std::size_t>(model.nodes()));
+  const auto meet = [&](Index node, Index other) {
+    Meeting& own = at[static_cast<std::size_t>(node)];
+    ++own.elements;
+    own.other = other;
+  };
+  for (const Part& part : model.parts) {
+    if (std::holds_alternative<ObstacleBatch>(part.elements)) continue;  // stops nodes, joins nothing
+    std::visit(
+        [&](const auto& batch) {
+          for (const auto& cell : batch.cells())
+            for (const Index node : cell) meet(node, cell.size() == 2 ? cell[0] + cell[1] - node : -1);
+        },
+        part.elements);
+  }
+  for (const auto& slide : model.constrained_slides)
+    for (const Index slider : slide.line.sliders) meet(slider, -1);
+  return at;
+}
+
+}  // namespace
+
+std::vector<std::string> loose_ends(const Model& model) {
+  const std::vector<Meeting> at = meetings(model);
+  const std::vector<bool> held = held_nodes(model);
+  std::vector<Index> ends;
+  for (Index node = 0; node < model.nodes(); ++node)
+    if (const Meeting& own = at[static_cast<std::size_t>(node)];
+        own.elements == 1 && own.other >= 0 && !held[static_cast<std::size_t>(node)])
+      ends.push_back(node);
+  if (ends.empty()) return {};
+  const PointCloud cloud{model.reference};
+  Tree tree(3, cloud);
+  tree.buildIndex();
+  std::vector<std::string> found;
+  std::vector<std::pair<std::size_t, double>> near;
+  for (const Index node : ends) {
+    const Meeting& own = at[static_cast<std::size_t>(node)];
+    const Vector3 place = model.position(node);
+    const double reach = share_of_element * (model.position(own.other) - place).norm();
+    tree.radiusSearch(place.data(), reach * reach, near, nanoflann::SearchParams());  // the nearest first
+    for (const auto& [other, squared] : near) {
+      if (static_cast<Index>(other) == node) continue;
+      found.push_back(fmt::format("{} ends {} beside {} and is not joined with it", node_name(model, node),
+                                  core::readable(std::sqrt(squared), "m"),
+                                  node_name(model, static_cast<Index>(other))));
+      break;
+    }
+  }
+  return found;
+}
+
+}  // namespace talus::fem
