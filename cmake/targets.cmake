@@ -23,6 +23,16 @@ function(talus_program name)
   target_link_libraries(${name} PRIVATE ${ARG_LINK})
 endfunction()
 
+# A program in C, or another language that calls it, that takes part in a run.
+function(talus_c_program name)
+  cmake_parse_arguments(ARG "" "" "SOURCES" ${ARGN})
+  add_executable(${name} ${ARG_SOURCES})
+  target_link_libraries(${name} PRIVATE talus_c)
+  if(TALUS_SANITIZE)  # the library needs the sanitizers' part for C++, which only the linker of C++ brings
+    set_target_properties(${name} PROPERTIES LINKER_LANGUAGE CXX)
+  endif()
+endfunction()
+
 # Sanitizers slow programs ten- to fiftyfold: what a test may take there.
 function(talus_time_limit variable seconds)
   if(TALUS_SANITIZE)
