@@ -6,7 +6,7 @@ from typing import Mapping, Sequence
 
 import numpy as np
 
-from talus._native import FieldLocation, LedgerKind, TableKind
+from talus_participant._native import FieldLocation, LedgerKind, TableKind
 
 
 def _no_cells(nodes_per_cell: int) -> np.ndarray:

@@ -9,9 +9,9 @@ from typing import BinaryIO, Iterator
 
 import numpy as np
 
-from talus import _native
-from talus._native import Action, Command, Role
-from talus.description import Declaration, Part, Surface
+from talus_participant import _native
+from talus_participant._native import Action, Command, Role
+from talus_participant.description import Declaration, Part, Surface
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,7 @@ namespace py = pybind11;
 namespace {
 
 py::object error_class(const char* name) {
-  return py::module_::import("talus.errors").attr(name);
+  return py::module_::import("talus_participant.errors").attr(name);
 }
 
 void raise(const char* class_name, const std::exception& error) {

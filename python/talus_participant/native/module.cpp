@@ -12,7 +12,7 @@
 #include "python/talus_participant/native/conversions.hpp"
 #include "python/talus_participant/native/errors.hpp"
 
-/// talus._native: the participant interface of coupler/participant.hpp, call by call. The package around it
+/// talus_participant._native: the participant interface of coupler/participant.hpp, call by call. The package around it
 /// (python/talus_participant/) is what users see.
 namespace talus::python {
 namespace {
@@ -183,7 +183,7 @@ double convert(double value, const std::string& unit, const std::string& wanted)
 
 PYBIND11_MODULE(_native, module) {
   using namespace talus::python;
-  module.doc() = "The participant interface of Talus, call by call; use the package talus instead.";
+  module.doc() = "The participant interface of Talus, call by call; use the package talus_participant instead.";
   register_errors();
   bind_output_kinds(module);
   bind_command(module);

@@ -2,7 +2,7 @@
 import sys
 
 import numpy as np
-import talus
+import talus_participant as talus
 
 SURFACE = talus.Surface(
     positions=np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]),

@@ -5,7 +5,7 @@ import sys
 import time
 
 import numpy as np
-import talus
+import talus_participant as talus
 
 
 def go_wrong(how):
