@@ -183,7 +183,8 @@ double convert(double value, const std::string& unit, const std::string& wanted)
 
 PYBIND11_MODULE(_native, module) {
   using namespace talus::python;
-  module.doc() = "The participant interface of Talus, call by call; use the package talus_participant instead.";
+  module.doc() =
+      "The participant interface of Talus, call by call; use the package talus_participant instead.";
   register_errors();
   bind_output_kinds(module);
   bind_command(module);
