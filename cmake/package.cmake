@@ -1,5 +1,5 @@
 # The Debian package: `./talus package` builds what it needs and calls cpack -G DEB.
-find_program(DPKG_SHLIBDEPS dpkg-shlibdeps)
+set(control_files postinst prerm triggers)
 add_custom_target(man
   COMMAND ${TALUS_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/cmake/man_pages.py ${CMAKE_RUNTIME_OUTPUT_DIRECTORY} ${PROJECT_VERSION} ${CMAKE_BINARY_DIR}/man/man1
   COMMENT "Manual pages from the help texts")
@@ -17,15 +17,18 @@ set(CPACK_STRIP_FILES ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)  # also has ldconfig run
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS libopenblas0-serial)
 if(TARGET talus_python)
   add_dependencies(packaged talus_python)
-  # The compiled module is for one version of Python.
+  find_package(Python REQUIRED COMPONENTS Interpreter)  # the compiled module is for one version of it
   math(EXPR next "${Python_VERSION_MINOR} + 1")
   set(CPACK_DEBIAN_PACKAGE_DEPENDS "python3 (>= 3.${Python_VERSION_MINOR}), python3 (<< 3.${next}), python3-numpy")
-  set(CPACK_DEBIAN_PACKAGE_RECOMMENDS python3-scipy)
+  string(APPEND CPACK_DEBIAN_PACKAGE_RECOMMENDS ", python3-scipy")
 endif()
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS "g++, gfortran, paraview")
-set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA ${CMAKE_CURRENT_SOURCE_DIR}/cmake/debian/postinst ${CMAKE_CURRENT_SOURCE_DIR}/cmake/debian/prerm)
+# Which package holds libtalus_c, for those who package programs that use it; ldconfig is a trigger.
+file(WRITE ${CMAKE_BINARY_DIR}/debian/shlibs "libtalus_c ${PROJECT_VERSION_MAJOR} talus (>= ${PROJECT_VERSION})\n")
+list(TRANSFORM control_files PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/cmake/debian/)
+set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA ${control_files} ${CMAKE_BINARY_DIR}/debian/shlibs)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 include(CPack)
