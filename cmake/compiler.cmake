@@ -16,7 +16,9 @@ target_compile_options(talus_warnings INTERFACE
 add_library(talus_numerics INTERFACE)
 target_compile_options(talus_numerics INTERFACE -ffp-contract=off -fno-math-errno)
 
-if(NOT TALUS_PORTABLE AND CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+if(TALUS_CPU)
+  target_compile_options(talus_numerics INTERFACE -march=${TALUS_CPU})
+elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
   include(CheckCXXSourceRuns)
   check_cxx_source_runs("int main() { return __builtin_cpu_supports(\"avx2\") && __builtin_cpu_supports(\"fma\")
                                              && __builtin_cpu_supports(\"bmi2\") ? 0 : 1; }" TALUS_HAS_X86_64_V3)

@@ -16,11 +16,33 @@ function(talus_library name)
   target_link_libraries(${name} PUBLIC ${ARG_LINK} PRIVATE ${ARG_PRIVATE_LINK})
 endfunction()
 
+# A library for programs outside of this project. EXPORTS: the version script that says which symbols it shows.
+function(talus_shared_library name)
+  cmake_parse_arguments(ARG "" "EXPORTS" "SOURCES;LINK" ${ARGN})
+  add_library(${name} SHARED ${ARG_SOURCES})
+  set(exports ${CMAKE_CURRENT_SOURCE_DIR}/${ARG_EXPORTS})
+  target_include_directories(${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
+  target_link_libraries(${name} PRIVATE talus_warnings talus_numerics ${ARG_LINK})
+  target_link_options(${name} PRIVATE LINKER:--version-script=${exports} LINKER:--as-needed)
+  set_target_properties(${name} PROPERTIES LINK_DEPENDS ${exports} VERSION ${PROJECT_VERSION}
+                        LIBRARY_OUTPUT_DIRECTORY ${CMAKE_RUNTIME_OUTPUT_DIRECTORY})
+endfunction()
+
 function(talus_program name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
   talus_settings(${name})
   target_link_libraries(${name} PRIVATE ${ARG_LINK})
+endfunction()
+
+# A program in C, or another language that calls it, that takes part in a run.
+function(talus_c_program name)
+  cmake_parse_arguments(ARG "" "" "SOURCES" ${ARGN})
+  add_executable(${name} ${ARG_SOURCES})
+  target_link_libraries(${name} PRIVATE talus_c talus_numerics)
+  if(TALUS_SANITIZE)  # the library needs the sanitizers' part for C++, which only the linker of C++ brings
+    set_target_properties(${name} PROPERTIES LINKER_LANGUAGE CXX)
+  endif()
 endfunction()
 
 # Sanitizers slow programs ten- to fiftyfold: what a test may take there.

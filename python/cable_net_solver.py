@@ -3,7 +3,7 @@
 solver for another. A scene names it with `structure: {solver: path/to/cable_net_solver.py}`; docs/participants.md."""
 import argparse
 
-import talus
+import talus_participant as talus
 from cable_net.scene import read_model
 from cable_net.service import serve
 

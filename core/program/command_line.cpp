@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include "core/parallel.hpp"
+#include "core/program/faster_build.hpp"
 #include "core/program/log.hpp"
 #include "core/program/stop.hpp"
 
@@ -99,6 +100,7 @@ int run_main(const std::string& program, const std::function<ExitCode()>& body) 
 
 int run_main(CLI::App& app, int argc, const char* const* argv,
              const std::function<ExitCode()>& body) noexcept {
+  become_faster_build(argv);
   return run_main(app.get_name(), [&] {
     app.set_version_flag("--version", app.get_name() + " " + version());
     try {

@@ -29,8 +29,19 @@ bool can_be_started(const fs::path& file) {
   return fs::is_regular_file(file, error) && (is_python(file) || access(file.c_str(), X_OK) == 0);
 }
 
+/// The folder of the package `talus_participant`: of a build, of an installation, or of one seen from its programs for
+/// newer processors (core/program/faster_build.hpp).
+fs::path package_folder() {
+  const fs::path above = program_folder().parent_path();
+  const fs::path installed = above / TALUS_PYTHON_PACKAGES,
+                 from_faster = above / "../../.." / TALUS_PYTHON_PACKAGES;
+  for (const auto& folder : {installed, from_faster})
+    if (fs::exists(folder / "talus_participant")) return folder;
+  return above / "python";
+}
+
 std::vector<std::string> python_command(const fs::path& file) {
-  std::string search = "PYTHONPATH=" + (program_folder().parent_path() / "python").string();
+  std::string search = "PYTHONPATH=" + package_folder().string();
   if (const char* of_the_user = std::getenv("PYTHONPATH")) search += std::string(":") + of_the_user;
   return {"/usr/bin/env", search, TALUS_PYTHON, file.string()};
 }

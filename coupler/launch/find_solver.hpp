@@ -16,7 +16,7 @@ std::filesystem::path program_folder();
 std::filesystem::path own_solver(const std::string& name);
 
 /// A solver a scene names: absolute, else relative to the scene, else beside the running program, else on
-/// PATH. A Python file is run by the Python that the package `talus` was built for, which it finds on its
+/// PATH. A Python file is run by the Python that the package `talus_participant` was built for, which it finds on its
 /// path. Looks only; nothing is started.
 /// @returns nothing where there is no such program
 std::optional<Program> named_solver(const std::string& written,

@@ -69,9 +69,9 @@ InterfaceSource::InterfaceSource(const Interface& interface, const Peer& particl
     description_.groups.push_back(
         boundary_group("boundary", core::CellKind::segment, surface, surface.segments));
   }
-  if (!surface.triangles.empty()) {
+  if (!surface.triangles.empty()) {  // dem_solver has `boundary_faces`, all that it touches
     description_.groups.push_back(
-        boundary_group("boundary_surface", core::CellKind::triangle, surface, surface.triangles));
+        boundary_group("interface_faces", core::CellKind::triangle, surface, surface.triangles));
   }
 }
 

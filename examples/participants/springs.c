@@ -33,16 +33,25 @@ int main(int argc, char** argv) {
     const int a = cell / (side - 1) * side + cell % (side - 1), b = a + 1, c = b + side, d = a + side;
     memcpy(triangles + 6 * cell, (int32_t[]){a, b, c, a, c, d}, 6 * sizeof *triangles);
   }
-  const char* probes[] = {"middle.displacement_z_m"};
-  const talus_surface surface = {nodes, positions, masses, 0, NULL, 2 * cells, triangles};
-  const talus_declaration declaration = {"springs.c", 0, 2 / 44.72, 1, probes, 1}; /* 2 sqrt(m/k) */
+  const talus_surface surface = {.size = sizeof surface,
+                                 .nodes = nodes,
+                                 .positions = positions,
+                                 .node_masses = masses,
+                                 .triangles = 2 * cells,
+                                 .triangle_nodes = triangles};
+  const talus_limit limit = {
+      .size = sizeof limit, .name = "springs", .seconds = 2 / 44.72, .reason = "2 sqrt(m/k)"};
+  const talus_declaration declaration = {
+      .size = sizeof declaration, .program = "springs.c", .checkpoints = 1};
 
   talus_participant* self;
-  if (talus_join(argv[argc - 1], TALUS_STRUCTURE, &self) || talus_publish_surface(self, &surface))
+  if (talus_join(argv[argc - 1], TALUS_STRUCTURE, 0, &self) || talus_publish_surface(self, &surface) ||
+      talus_add_limit(self, &limit) || talus_add_probe(self, "middle.displacement_z_m", NULL) ||
+      talus_declare(self, &declaration))
     return TALUS_TRANSPORT_ERROR; /* its text: talus_last_error() */
-  if (talus_declare(self, &declaration)) return TALUS_TRANSPORT_ERROR;
-  for (talus_command command; talus_next(self, &command) == TALUS_OK; talus_answer(self)) {
-    talus_structure_fields fields;
+  talus_command command = {.size = sizeof command};
+  talus_structure_fields fields = {.size = sizeof fields};
+  for (; talus_next(self, &command) == TALUS_OK; talus_answer(self)) {
     double* probe;
     if (command.action == TALUS_FINISH) return talus_leave(self), TALUS_OK;
     if (talus_get_structure_fields(self, &fields) || talus_get_probes(self, &probe))

@@ -5,7 +5,7 @@ The coupler starts it as `springs.py scene.yaml --join SEGMENT`; between the mas
 import sys
 
 import numpy as np
-import talus
+import talus_participant as talus
 
 MASS, STIFFNESS = 10.0, 2e4  # kg, N/m
 SIDE = 5  # masses along an edge, 0.5 m apart

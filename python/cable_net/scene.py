@@ -4,7 +4,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import talus
+import talus_participant as talus
 
 from cable_net.cables import CableNet, CableProperties
 from cable_net.motion import Motion

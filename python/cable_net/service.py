@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 import numpy as np
-import talus
+import talus_participant as talus
 
 from cable_net.motion import State, at_rest
 from cable_net.scene import AXES, Model

@@ -2,6 +2,7 @@
 
 A structural solver joins, says what it is, and answers commands until there are no more:
 
+    import talus_participant as talus
     with talus.Participant(segment, talus.Role.structure) as participant:
         participant.publish_surface(surface, node_masses)
         participant.declare(talus.Declaration(program="my solver"))
@@ -10,15 +11,15 @@ A structural solver joins, says what it is, and answers commands until there are
 
 docs/participants.md tells the whole story; examples/participants/springs.py is a complete program of some 40 lines.
 """
-from talus._native import Action, Command, FieldLocation, LedgerKind, Role
-from talus.description import Declaration, Effect, Field, Group, LedgerLine, StepLimit, Surface
-from talus.errors import ConfigError, NumericalError, TalusError, TransportError, UsageError
-from talus.participant import Participant, ParticleFields, StructureFields, checkpoint_state, write_checkpoint
-from talus.scene import Section, read_scene
+from talus_participant._native import Action, Command, FieldLocation, LedgerKind, Role, TableKind
+from talus_participant.description import Declaration, Effect, Field, Group, LedgerLine, Part, Probe, StepLimit, Surface, Table
+from talus_participant.errors import Complaint, ConfigError, MachineError, NumericalError, TalusError, TransportError, UsageError
+from talus_participant.participant import Participant, ParticleFields, StructureFields, checkpoint_state, write_checkpoint
+from talus_participant.scene import Section, read_scene
 
 __all__ = [
-    "Action", "Command", "ConfigError", "Declaration", "Effect", "Field", "FieldLocation", "Group", "LedgerKind",
-    "LedgerLine", "NumericalError", "Participant", "ParticleFields", "Role", "Section", "StepLimit",
-    "StructureFields", "Surface", "TalusError", "TransportError", "UsageError", "checkpoint_state", "read_scene",
-    "write_checkpoint",
+    "Action", "Command", "Complaint", "ConfigError", "Declaration", "Effect", "Field", "FieldLocation", "Group",
+    "LedgerKind", "LedgerLine", "MachineError", "NumericalError", "Part", "Participant", "ParticleFields", "Probe",
+    "Role", "Section", "StepLimit", "StructureFields", "Surface", "Table", "TableKind", "TalusError",
+    "TransportError", "UsageError", "checkpoint_state", "read_scene", "write_checkpoint",
 ]

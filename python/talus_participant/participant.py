@@ -9,9 +9,9 @@ from typing import BinaryIO, Iterator
 
 import numpy as np
 
-from talus import _native
-from talus._native import Action, Command, Role
-from talus.description import Declaration, Surface
+from talus_participant import _native
+from talus_participant._native import Action, Command, Role
+from talus_participant.description import Declaration, Part, Surface
 
 
 @dataclass(frozen=True)
@@ -25,13 +25,15 @@ class StructureFields:
     force: np.ndarray  #: N, read only; mean over the window
     displacement: np.ndarray  #: m, at the window's end
     velocity: np.ndarray  #: m/s, at the window's end (explicit leapfrog: half a step before)
+    free_velocity: np.ndarray  #: m/s, a step after `velocity` if no interface force acted; empty: not needed
+    lost: np.ndarray  #: (cells,), 1 for each broken cell, segments before triangles; empty: not declared
 
 
 @dataclass(frozen=True)
 class ParticleFields:
     """Interface values at the nodes of the received boundary, each of shape (nodes, 3): views of the shared memory.
 
-    The two `end` arrays are empty for a participant that takes one step a window.
+    Arrays that nobody needs are empty: the two `end` arrays where both sides take one step a window.
     """
 
     start_displacement: np.ndarray  #: m, read only
@@ -39,6 +41,10 @@ class ParticleFields:
     end_displacement: np.ndarray  #: m, read only
     end_velocity: np.ndarray  #: m/s, read only
     force: np.ndarray  #: N, that the boundary receives, mean over the window
+    free_velocity: np.ndarray  #: m/s, read only; the boundary's a step after the start if nothing touched it
+    moved_displacement: np.ndarray  #: m; at the end, if each node besides answers to its contact forces with its mass
+    moved_velocity: np.ndarray  #: m/s; likewise
+    lost: np.ndarray  #: (cells,), read only; 1 for each cell that is gone, segments before triangles
 
 
 def write_checkpoint(command: Command, write: Callable[[BinaryIO], None]) -> None:
@@ -94,8 +100,8 @@ class Participant:
 
         Blocks until the structure has published.
         """
-        arrays, node_masses = self._native.receive_surface()
-        return Surface(**arrays), node_masses
+        arrays, parts, node_masses = self._native.receive_surface()
+        return Surface(**arrays, parts=[Part(**part) for part in parts]), node_masses
 
     def declare(self, declaration: Declaration) -> None:
         """Step, limits, effects and outputs; what is declared here is what `report` fills."""
@@ -144,3 +150,20 @@ class Participant:
         """Where `report` puts a field of a group, shape (nodes or cells, components), where command.fields is set."""
         components = self._declaration.groups[group].fields[field].components
         return self._native.field(group, field, components)
+
+    def table(self, table: int) -> np.ndarray:
+        """Where `report` puts the rows of a table, shape (capacity, columns)."""
+        return self._native.table(table, len(self._declaration.tables[table].columns))
+
+    def set_table_rows(self, table: int, rows: int) -> None:
+        """How many rows a table has."""
+        self._native.set_table_rows(table, rows)
+
+    def tell_force_evaluations(self, since_start: int) -> None:
+        """Optional, between a command and its answer: how often all forces were evaluated, for the summary."""
+        self._native.tell_force_evaluations(since_start)
+
+    def book_work(self, of_this_window: float) -> None:
+        """Optional, between `advance` and its answer: the work (J) of the window's forces on this side's surface. Of a side that does
+        not tell it is summed from forces and displacements."""
+        self._native.book_work(of_this_window)

@@ -7,8 +7,8 @@ from typing import Any, Iterator
 
 import numpy as np
 
-from talus import _native
-from talus.errors import ConfigError
+from talus_participant import _native
+from talus_participant.errors import ConfigError
 
 _QUANTITY = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(.*?)\s*")
 

@@ -86,8 +86,25 @@ double no_force(std::int64_t) {
   return 0;
 }
 
-void run_failing(const std::string& how) {
-  ForeignRun run("tests/coupled/participants/failing.py", {how});
+/// The same solver in each language; Fortran where the machine has its compiler.
+const std::vector<std::string> compiled_springs{
+    TALUS_BINARY_DIR "/bin/springs_cpp",
+    TALUS_BINARY_DIR "/bin/springs_c",
+#ifdef TALUS_FORTRAN
+    TALUS_BINARY_DIR "/bin/springs_f90",
+#endif
+};
+const std::vector<std::string> springs = [] {
+  auto all = compiled_springs;
+  all.emplace_back("examples/participants/springs.py");
+  return all;
+}();
+
+const std::string failing_in_python = "tests/coupled/participants/failing.py";
+const std::string failing_in_c = TALUS_BINARY_DIR "/bin/failing_c";
+
+void run_failing(const std::string& how, const std::string& program = failing_in_python) {
+  ForeignRun run(program, {how});
   run.start(0, no_force);
   for (int window = 0; window < 5; ++window) run.compute(window);
 }
@@ -97,10 +114,8 @@ constexpr double noticed_within = 1;
 
 }  // namespace
 
-TEST_CASE("masses on springs in C, C++ and Python move as the leapfrog says, to the last bit") {
-  const std::string program =
-      GENERATE("examples/participants/springs.py", TALUS_BINARY_DIR "/bin/springs_cpp",
-               TALUS_BINARY_DIR "/bin/springs_c");
+TEST_CASE("masses on springs in C, C++, Fortran and Python move as the leapfrog says, to the last bit") {
+  const std::string program = GENERATE(from_range(springs));
   INFO(program);
   ForeignRun run(program, {"scene.yaml"});
   const std::size_t middle = 12, corner = 0;
@@ -124,10 +139,8 @@ TEST_CASE("masses on springs in C, C++ and Python move as the leapfrog says, to 
   run.session().finish();
 }
 
-TEST_CASE("participants in C, C++ and Python go back to the state they saved") {
-  const std::string program =
-      GENERATE("examples/participants/springs.py", TALUS_BINARY_DIR "/bin/springs_cpp",
-               TALUS_BINARY_DIR "/bin/springs_c");
+TEST_CASE("participants in C, C++, Fortran and Python go back to the state they saved") {
+  const std::string program = GENERATE(from_range(springs));
   INFO(program);
   ForeignRun run(program, {"scene.yaml"});
   run.start(12, pulsating_force);
@@ -142,10 +155,8 @@ TEST_CASE("participants in C, C++ and Python go back to the state they saved") {
   run.session().finish();
 }
 
-TEST_CASE("participants in C, C++ and Python go on from a checkpoint with the same bits") {
-  const std::string program =
-      GENERATE("examples/participants/springs.py", TALUS_BINARY_DIR "/bin/springs_cpp",
-               TALUS_BINARY_DIR "/bin/springs_c");
+TEST_CASE("participants in C, C++, Fortran and Python go on from a checkpoint with the same bits") {
+  const std::string program = GENERATE(from_range(springs));
   INFO(program);
   const test::Folder folder("foreign");
   const std::string file = folder.path() / "springs.part";
@@ -176,9 +187,8 @@ TEST_CASE("participants in C, C++ and Python go on from a checkpoint with the sa
   rest.session().finish();
 }
 
-TEST_CASE("a checkpoint of another state is refused by C and C++ before it is taken") {
-  const std::string program =
-      GENERATE(TALUS_BINARY_DIR "/bin/springs_cpp", TALUS_BINARY_DIR "/bin/springs_c");
+TEST_CASE("a checkpoint of another state is refused by C, C++ and Fortran before it is taken") {
+  const std::string program = GENERATE(from_range(compiled_springs));
   const test::Folder folder("foreign");
   const std::string file = folder.path() / "other.part";
   std::ofstream(file) << "too short";
@@ -188,9 +198,11 @@ TEST_CASE("a checkpoint of another state is refused by C and C++ before it is ta
       run.session().ask(run.structure(), {.action = Action::read_checkpoint, .window = 0, .path = file}));
 }
 
-TEST_CASE("a NumericalError raised in Python reaches the coupler with its step, time and entity") {
+TEST_CASE("a NumericalError of C or Python reaches the coupler with its step, time and entity") {
+  const std::string program = GENERATE(failing_in_c, failing_in_python);
+  INFO(program);
   try {
-    run_failing("numerical");
+    run_failing("numerical", program);
     FAIL("the run went on");
   } catch (const core::NumericalError& error) {
     CHECK(error.details().what == "velocity is not finite");
@@ -201,9 +213,40 @@ TEST_CASE("a NumericalError raised in Python reaches the coupler with its step, 
   }
 }
 
-TEST_CASE("a ConfigError raised in Python ends the run with exactly its text") {
-  CHECK_THROWS_WITH(run_failing("config"), "scene.yaml: structure.solver: has no net");
-  CHECK_THROWS_AS(run_failing("config"), core::ConfigError);
+TEST_CASE("complaints of C or Python about the scene reach the coupler with their places") {
+  const std::string program = GENERATE(failing_in_c, failing_in_python);
+  INFO(program);
+  try {
+    run_failing("config", program);
+    FAIL("the run went on");
+  } catch (const core::ConfigError& error) {
+    CHECK(error.complaints() ==
+          std::vector<core::Complaint>{{.message = "scene.yaml: structure.solver: has no net"},
+                                       {.file = "scene.yaml",
+                                        .line = 7,
+                                        .column = 3,
+                                        .key_path = "structure.area",
+                                        .message = "is missing"}});
+  }
+}
+
+TEST_CASE("a machine that fails a program in C or Python is told apart from the program's own errors") {
+  const std::string program = GENERATE(failing_in_c, failing_in_python);
+  INFO(program);
+  CHECK_THROWS_AS(run_failing("machine", program), core::MachineError);
+  CHECK_THROWS_WITH(run_failing("machine", program), Catch::Contains("no room for the matrix"));
+}
+
+TEST_CASE("a reason that a program in C gives ends the run with the reason and the window") {
+  using Catch::Contains;
+  CHECK_THROWS_AS(run_failing("exception", failing_in_c), core::TransportError);
+  CHECK_THROWS_WITH(run_failing("exception", failing_in_c),
+                    Contains("a bug of the solver") && Contains("failing_c") && Contains("window 2"));
+}
+
+TEST_CASE("the text of a ConfigError raised in Python ends the run, and nothing else is said") {
+  CHECK_THROWS_WITH(run_failing("config text"), "scene.yaml: structure.solver: has no net");
+  CHECK_THROWS_AS(run_failing("config text"), core::ConfigError);
 }
 
 TEST_CASE("any other exception in Python ends the run with its type, its text and the window") {

@@ -52,7 +52,7 @@ class OwnBoundary(unittest.TestCase):
 
     def test_the_fields_hold_the_forces_that_the_probes_sum(self):
         with h5py.File(self.run_.result / "fields.h5") as file:
-            frames = [np.asarray(file["boundary_surface/force"][name])[:, 2].sum() for name in sorted(file["boundary_surface/force"])[:4]]
+            frames = [np.asarray(file["interface_faces/force"][name])[:, 2].sum() for name in sorted(file["interface_faces/force"])[:4]]
         rows = [self.run_.at("interface.force_z_N", time) for time in (0, 0.01, 0.02, 0.03)]
         self.assertGreater(max(map(abs, rows)), 1000)
         for frame, row in zip(frames, rows, strict=True):

@@ -5,7 +5,7 @@ import sys
 import time
 
 import numpy as np
-import talus
+import talus_participant as talus
 
 MASS, STIFFNESS = 2.0, 300.0  # kg, N/m
 

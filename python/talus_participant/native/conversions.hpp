@@ -21,6 +21,7 @@ using IndexArray = py::array_t<mesh::Index, py::array::c_style | py::array::forc
 /// @throws UsageError where an array has another shape
 mesh::Surface surface_from(const py::object& surface);
 py::dict surface_arrays(const mesh::Surface& surface);
+py::list surface_parts(const mesh::Surface& surface);
 
 /// From the attributes of talus.Declaration (python/talus_participant/description.py).
 coupler::Declaration declaration_from(const py::object& declaration);

@@ -4,7 +4,7 @@
 
 #include <functional>
 
-/// Errors keep their kind and their text on the way between C++ and Python (classes of talus/errors.py).
+/// Errors keep their kind and their text on the way between C++ and Python (classes of talus_participant/errors.py).
 namespace talus::python {
 
 /// From here on the C++ errors of core/errors.hpp arrive in Python as the classes of the same names.

@@ -12,7 +12,7 @@
 #include "python/talus_participant/native/conversions.hpp"
 #include "python/talus_participant/native/errors.hpp"
 
-/// talus._native: the participant interface of coupler/participant.hpp, call by call. The package around it
+/// talus_participant._native: the participant interface of coupler/participant.hpp, call by call. The package around it
 /// (python/talus_participant/) is what users see.
 namespace talus::python {
 namespace {
@@ -33,7 +33,7 @@ py::tuple receive_surface(Participant& participant) {
     const py::gil_scoped_release others_may_run;
     surface = participant.receive_surface(masses);
   }
-  return py::make_tuple(surface_arrays(surface),
+  return py::make_tuple(surface_arrays(surface), surface_parts(surface),
                         DoubleArray(static_cast<py::ssize_t>(masses.size()), masses.data()));
 }
 
@@ -52,19 +52,23 @@ void publish_surface(Participant& participant, const py::object& surface, const 
 py::dict structure_fields(const py::object& self) {
   using namespace py::literals;
   const auto fields = self.cast<Participant&>().structure_fields();
-  return py::dict("force"_a = view(fields.force, 3, self),
-                  "displacement"_a = view(fields.displacement, 3, self),
-                  "velocity"_a = view(fields.velocity, 3, self));
+  return py::dict(
+      "force"_a = view(fields.force, 3, self), "displacement"_a = view(fields.displacement, 3, self),
+      "velocity"_a = view(fields.velocity, 3, self), "free_velocity"_a = view(fields.free_velocity, 3, self),
+      "lost"_a = view(fields.lost, 0, self));
 }
 
 py::dict particle_fields(const py::object& self) {
   using namespace py::literals;
   const auto fields = self.cast<Participant&>().particle_fields();
-  return py::dict("start_displacement"_a = view(fields.start_displacement, 3, self),
-                  "start_velocity"_a = view(fields.start_velocity, 3, self),
-                  "end_displacement"_a = view(fields.end_displacement, 3, self),
-                  "end_velocity"_a = view(fields.end_velocity, 3, self),
-                  "force"_a = view(fields.force, 3, self));
+  return py::dict(
+      "start_displacement"_a = view(fields.start_displacement, 3, self),
+      "start_velocity"_a = view(fields.start_velocity, 3, self),
+      "end_displacement"_a = view(fields.end_displacement, 3, self),
+      "end_velocity"_a = view(fields.end_velocity, 3, self), "force"_a = view(fields.force, 3, self),
+      "free_velocity"_a = view(fields.free_velocity, 3, self),
+      "moved_displacement"_a = view(fields.moved_displacement, 3, self),
+      "moved_velocity"_a = view(fields.moved_velocity, 3, self), "lost"_a = view(fields.lost, 0, self));
 }
 
 void bind_participant(py::module_& module) {
@@ -88,9 +92,18 @@ void bind_participant(py::module_& module) {
            [](const py::object& self, std::size_t group) {
              return view(self.cast<Participant&>().positions(group), 3, self);
            })
-      .def("field", [](const py::object& self, std::size_t group, std::size_t field, std::size_t components) {
-        return view(self.cast<Participant&>().field(group, field), components, self);
-      });
+      .def("field",
+           [](const py::object& self, std::size_t group, std::size_t field, std::size_t components) {
+             return view(self.cast<Participant&>().field(group, field), components, self);
+           })
+      .def("table",
+           [](const py::object& self, std::size_t table, std::size_t columns) {
+             return view(self.cast<Participant&>().table(table), columns, self);
+           })
+      .def("set_table_rows", [](Participant& self, std::size_t table,
+                                std::int64_t rows) { self.table_rows(table) = static_cast<double>(rows); })
+      .def("tell_force_evaluations", &Participant::tell_force_evaluations)
+      .def("book_work", &Participant::book_work);
 }
 
 void bind_command(py::module_& module) {
@@ -109,10 +122,14 @@ void bind_command(py::module_& module) {
                       "One command of the coupler. Time is window x length, never accumulated.")
       .def_readonly("action", &Command::action)
       .def_readonly("fields", &Command::fields, "report: field frames are wanted too")
+      .def_readonly("tentative", &Command::tentative,
+                    "advance: the window may be taken back; its work is booked by the coupler")
       .def_readonly("window", &Command::window, "index of the window, from 0")
       .def_readonly("iteration", &Command::iteration, "of a strong scheme, from 0")
       .def_readonly("time", &Command::time, "s; the start of the window")
       .def_readonly("length", &Command::length, "s; of the window")
+      .def_readonly("regular_length", &Command::regular_length,
+                    "s; of a window in which nothing makes the coupler choose another")
       .def_readonly(
           "force_shift", &Command::force_shift,
           "s; advance of particles: how much earlier than the window the mean of the forces is wanted")
@@ -120,11 +137,16 @@ void bind_command(py::module_& module) {
 }
 
 void bind_output_kinds(py::module_& module) {
-  py::enum_<core::LedgerKind>(module, "LedgerKind",
-                              "How a line enters stored + dissipated - supplied = constant.")
+  py::enum_<core::LedgerKind>(
+      module, "LedgerKind",
+      "How a line enters stored + dissipated - supplied = constant; a memo is only shown.")
       .value("stored", core::LedgerKind::stored)
       .value("dissipated", core::LedgerKind::dissipated)
-      .value("supplied", core::LedgerKind::supplied);
+      .value("supplied", core::LedgerKind::supplied)
+      .value("memo", core::LedgerKind::memo);
+  py::enum_<core::TableKind>(module, "TableKind", "What becomes of a table.")
+      .value("events", core::TableKind::events)
+      .value("distribution", core::TableKind::distribution);
   py::enum_<core::FieldLocation>(module, "FieldLocation", "What each row of a field belongs to.")
       .value("node", core::FieldLocation::node)
       .value("cell", core::FieldLocation::cell);
@@ -161,7 +183,8 @@ double convert(double value, const std::string& unit, const std::string& wanted)
 
 PYBIND11_MODULE(_native, module) {
   using namespace talus::python;
-  module.doc() = "The participant interface of Talus, call by call; use the package talus instead.";
+  module.doc() =
+      "The participant interface of Talus, call by call; use the package talus_participant instead.";
   register_errors();
   bind_output_kinds(module);
   bind_command(module);

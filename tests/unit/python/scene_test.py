@@ -4,7 +4,7 @@ import tempfile
 import unittest
 
 import numpy as np
-import talus
+import talus_participant as talus
 
 from cable_net.scene import read_model
 
