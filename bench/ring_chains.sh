@@ -22,7 +22,7 @@ structure:
   supports:
     - {nodes: chain.0, fix: xyz}
     - {nodes: chain.$rings, fix: xyz, displacement: [$longest m, 0 m, 0 m], over_time: [[0 s, 0], [1 s, 1]]}
-output: {every: 0.1 ms, fields_every: ~, probes: {end: {at: [$(/usr/bin/python3 -c "print(0.3 * $rings)") m, 0 m, 0 m]}}}
+output: {every: 0.1 ms, probes: {end: {at: [$(/usr/bin/python3 -c "print(0.3 * $rings)") m, 0 m, 0 m]}}}
 YAML
   "$TALUS_BUILD_DIR/bin/fem_solver" "$work/scene.yaml" --out "$work/result" --overwrite --quiet >&2
   /usr/bin/python3 - "$work/result" "$1" "$2" <<'PYTHON'
