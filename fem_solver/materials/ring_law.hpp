@@ -1,7 +1,6 @@
 #pragma once
 
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "fem_solver/materials/axial_laws.hpp"
@@ -13,10 +12,10 @@ namespace talus::fem {
 ///
 ///     p = sum of the polygon's sides      u = p - p_0      m = largest u so far
 ///     T(u) = N_k u/(p_k - p_0)                 p <= p_k: what is round turns straight
-///     T(u) = N_k + k (p - p_k)                 p >  p_k: what is straight stretches; k = (N_b - N_k)/(p_b - p_k)
+///     T(u) = N_k + k (p - p_k)                 p >  p_k: what is straight is drawn taut; k = (N_b - N_k)/(p_b - p_k)
 ///     N = T(u)                                 u >= m
-///     N = max(0, T(m) - k (m - u))             u < m
-///     stored: N^2/(2 k)      dissipated: integral_0^m T du - T(m)^2/(2 k)
+///     N = max(0, T(m) - k_w (m - u))           u < m;  k_w = N_b/(0.004 p_b), the stretch of the wire itself
+///     stored: N^2/(2 k_w)    dissipated: integral_0^m T du - T(m)^2/(2 k_w)
 ///
 /// | symbol   | variable           | meaning                                                     | unit |
 /// |----------|--------------------|-------------------------------------------------------------|------|
@@ -27,8 +26,9 @@ namespace talus::fem {
 /// | m        | history            | largest growth of the perimeter, never falls                | m    |
 ///
 /// A ring is straight when the polygon is as long as its wire, however many corners it has: p_k and p_b are those of a
-/// chain, with two. Bending is plastic and does not come back, stretch does: unloading has the slope k. A ring does
-/// not push. Valid for p_0 < p_k; beyond p_b the stretch goes on.
+/// chain, with two. Turning what is round to corners and straight sides is plastic to the end (the wire's own stretch
+/// is a tenth of p_b - p_k): only that comes back, an assumption no test of a chain speaks of. A ring does not push.
+/// Valid for p_0 < p_k; beyond p_b the stretch goes on.
 /// Proven by (elements_axial_laws.cpp): "work done on a law with memory is stored or dissipated".
 class RingLaw {
  public:
@@ -57,7 +57,7 @@ class RingLaw {
     double force, slope, work;  ///< N, N/m, J
   };
   Loading load(double growth, double reference) const noexcept;
-  /// The steeper of the two branches: bending of a ring with many corners may be it.
+  /// k_w, or the slope of a branch that is steeper.
   double unloading_slope(double reference) const noexcept;
 
   Point straight_, breaking_;

@@ -21,8 +21,8 @@ class PanelOfRings(unittest.TestCase):
         self.assertEqual(self.held.column("net.broken_1")[-1], 0)
         self.assertGreater(self.held.column("boulder.velocity_z_m_per_s").max(), 0)
         energy = 0.5 * 2500 * 4 / 3 * np.pi * 0.3**3 * 15**2  # J
-        self.assertGreater(self.held.energy("structure.dissipated_net_J")[-1], 0.3 * energy)
-        self.assertLess(self.held.energy_error(), 2e-3)
+        self.assertGreater(self.held.energy("structure.dissipated_net_J")[-1], 0.8 * energy)
+        self.assertLess(self.held.energy_error(), 1e-4)
 
     def test_what_a_ring_bore_is_compared_with_what_it_may(self):
         used = self.held.summary["tables"]["utilisation"]["net"]
@@ -31,7 +31,7 @@ class PanelOfRings(unittest.TestCase):
         self.assertLess(used["utilisation"], 1)
 
     def test_a_faster_boulder_breaks_rings_and_falls_through_the_hole(self):
-        through = Run(NET, "particles: {spheres: {boulder: {velocity: [0, 0, -40]}}}\ntime: {step: 25 us}\n" + COARSE)
+        through = Run(NET, "particles: {spheres: {boulder: {velocity: [0, 0, -40]}}}\n" + COARSE)
         self.assertLess(through.column("boulder.position_z_m")[-1], -2)
         self.assertEqual(np.abs(through.column("boulder.contact_force_z_N")[-20:]).max(), 0)
         first = through.summary["tables"]["ruptures"]["net"]
@@ -45,34 +45,35 @@ class PanelOfRings(unittest.TestCase):
         deepest = lambda run: run.column("boulder.position_z_m").min()
         own = Run(NET, "structure: {parts: {net: {ring: {breaks: ~}}}}\n"
                   "interface: {boundary: {same_as_structure: ~, ring_net: {corner: [0 m, 0 m, 0 m], size: [3 m, 3 m], inner_diameter: 300 mm, "
-                  "wire_diameter: 3 mm, windings: 7, material: wire}}}\n" + COARSE)
+                  "wire_diameter: 3 mm, windings: 7, material: wire}}, mapping: {nearest_feature: {tolerance: 50 mm}}}\n" + COARSE)
         self.assertLess(abs(deepest(own) - deepest(self.held)), 0.1 * abs(deepest(self.held)))
 
 
 class Thickness(unittest.TestCase):
-    def started(self, x: float, y: float, net: str, element: str, radius: str = "") -> Run:
+    def started(self, x: float, y: float, net: str, radius: str = "") -> Run:
         """A ball of 5 mm whose lower end is 2 mm above the plane of the net."""
-        return Run(NET, f"structure: {{parts: {{net: {{ring_net: ~, ring: ~, {net}, {element}}}}}}}\n"
+        return Run(NET, f"structure: {{parts: {{net: {{{net}}}}}}}\n"
                    f"interface: {{boundary: {{same_as_structure: {{{radius}}}}}}}\n"
                    f"particles: {{spheres: {{boulder: {{radius: 5 mm, at: [{x}, {y}, 0.007], velocity: [0, 0, 0]}}}}}}\n"
                    "time: {end: 0.1 ms, step: 1 us}\noutput: {every: 0.1 ms, fields_every: ~}\n")
 
     def test_particles_feel_a_twist_as_two_wires_thick(self):
-        net = "hexagonal_net: {corner: [0 m, 0 m, 0 m], size: [0.8 m, 0.7 m], mesh_size: [80 mm, 100 mm], twist_length: 40 mm, wire_diameter: 2.7 mm}"
-        cable = "cable: {area: 5.7 mm^2, density: 7850 kg/m^3, youngs_modulus: 100 GPa, prestress: 50 MPa}"
+        net = "ring_net: ~, ring: ~, hexagonal_net: {corner: [0 m, 0 m, 0 m], size: [0.8 m, 0.7 m], mesh_size: [80 mm, 100 mm], twist_length: 40 mm, wire_diameter: 2.7 mm}, " \
+              "cable: {area: 5.7 mm^2, density: 7850 kg/m^3, youngs_modulus: 100 GPa, prestress: 50 MPa}"
         # The twist at x = 40 mm is 2.7 mm thick around its axis, the wire that comes to it half of it.
-        on_twist, on_wire = self.started(0.04, 0.09, net, cable), self.started(0.02, 0.055, net, cable)
+        on_twist, on_wire = self.started(0.04, 0.09, net), self.started(0.02, 0.055, net)
         self.assertNotEqual(on_twist.done.returncode, 0)
         self.assertIn("boulder", on_twist.done.stderr)
         self.assertEqual(on_wire.done.returncode, 0, on_wire.done.stderr)
         # A radius that the scene gives is that of all lines.
-        self.assertEqual(self.started(0.04, 0.09, net, cable, "wire_radius: 1.35 mm").done.returncode, 0)
+        self.assertEqual(self.started(0.04, 0.09, net, "wire_radius: 1.35 mm").done.returncode, 0)
 
     def test_particles_feel_a_ring_as_thick_as_its_bundle(self):
         # Seven wires of 3 mm make a bundle of 8.3 mm: 4.17 mm around its axis, more than 2 mm. Rings touch at x = 0.3 m.
-        net = "ring_net: {corner: [0 m, 0 m, 0 m], size: [0.6 m, 0.6 m], inner_diameter: 300 mm, wire_diameter: 3 mm, windings: 7}"
-        self.assertNotEqual(self.started(0.3, 0.15, net, "ring: {}").done.returncode, 0)
-        self.assertEqual(self.started(0.15, 0.15, net, "ring: {}").done.returncode, 0)
+        on_ring, in_ring = self.started(0.3, 0.15, ""), self.started(0.15, 0.15, "")
+        self.assertNotEqual(on_ring.done.returncode, 0)
+        self.assertIn("boulder", on_ring.done.stderr)
+        self.assertEqual(in_ring.done.returncode, 0, in_ring.done.stderr)
 
 
 if __name__ == "__main__":
