@@ -124,7 +124,8 @@ class Clipping {
   }
 
   void add_part(std::size_t part, Surface& surface) {
-    SurfacePart range{.name = lattice_.parts[part].name, .wire_radius = lattice_.parts[part].wire_radius};
+    const LatticePart& pattern = lattice_.parts[part];
+    SurfacePart range{.name = pattern.name, .wire_radius = pattern.wire_radius, .wires = pattern.wires};
     range.segment_begin = static_cast<Index>(surface.segments.size());
     for (Index row = 0; row < cells_[1]; ++row)
       for (Index column = 0; column < cells_[0]; ++column)

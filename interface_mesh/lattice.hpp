@@ -11,6 +11,7 @@ namespace talus::mesh {
 struct LatticePart {
   const char* name = "";
   double wire_radius = 0;  ///< m; of what a rock touches
+  int wires = 1;           ///< side by side in each link
 };
 
 /// A straight piece of wire from a node of one cell to a node of the same or a neighbouring cell.

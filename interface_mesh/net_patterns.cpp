@@ -132,7 +132,7 @@ Lattice lattice(const HexagonalPattern& net) {
                     {2, 1, {1, 0}, 0},
                     {3, 0, {0, 1}, 0},
                     {3, 0, {1, 1}, 0}},
-          .parts = {{"wire", net.wire_diameter / 2}, {"twist", net.wire_diameter}}};
+          .parts = {{"wire", net.wire_diameter / 2}, {"twist", net.wire_diameter, 2}}};
 }
 
 Lattice lattice(const RingPattern& net) {

@@ -18,6 +18,7 @@ struct SurfacePart {
 
   Index segment_begin = 0, segment_end = 0;
   Index triangle_begin = 0, triangle_end = 0;
+  int wires = 1;  ///< side by side in each segment: 2 in a double twist
   bool operator==(const SurfacePart&) const = default;
 };
 

@@ -10,7 +10,7 @@ constexpr const char* tolerance_help =
 mesh::Surface with_contact(mesh::Surface surface, const SameAsStructure& contact) {
   for (auto& part : surface.parts) {
     part.material = contact.material;
-    part.wire_radius = contact.wire_radius;
+    part.wire_radius = contact.wire_radius.value_or(part.wire_radius);
   }
   return surface;
 }
@@ -45,11 +45,12 @@ struct Tie {
 }  // namespace
 
 void describe(core::Fields& fields, SameAsStructure& boundary) {
-  fields.with_default(
-      "wire_radius", boundary.wire_radius,
-      {.unit = "m",
-       .range = core::not_negative,
-       .help = "radius of the wires around the structure's lines; 0: their axes are touched"});
+  fields.optional("wire_radius", boundary.wire_radius,
+                  {.unit = "m",
+                   .range = core::not_negative,
+                   .help = "radius of the wires around the structure's lines; 0: their axes are touched; "
+                           "absent: that of each net by its `wire_diameter`, with twists and rings as thick "
+                           "as they are, and 0 of other lines"});
   fields.with_default("material", boundary.material, {.help = material_help});
 }
 

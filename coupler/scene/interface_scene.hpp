@@ -17,7 +17,7 @@ namespace talus::coupler {
 
 /// Ω_D is the surface of Ω_S itself.
 struct SameAsStructure {
-  double wire_radius = 0;  ///< m; 0: the axes are touched
+  std::optional<double> wire_radius;  ///< m; 0: the axes are touched; absent: as the structure says
   std::string material;
 };
 void describe(core::Fields& fields, SameAsStructure& boundary);

@@ -3,6 +3,11 @@
 
     ./talus run configs/examples/cable_net_implicit.yaml
     python3 docs/pictures/draw.py results/cable_net_implicit 0.075 docs/pictures/cable_net.png
+
+and that of docs/nets.md by
+
+    ./talus run configs/examples/ring_net.yaml
+    python3 docs/pictures/draw.py results/ring_net 0.075 docs/pictures/ring_net.png boulder.contact_force_z_N
 """
 import csv
 import pathlib
@@ -47,7 +52,7 @@ def draw_probe(axes, result, name, time):
     axes.grid(alpha=0.3)
 
 
-def main(result: pathlib.Path, time: float, picture: pathlib.Path):
+def main(result: pathlib.Path, time: float, picture: pathlib.Path, probe: str = "net_centre.displacement_z_m"):
     figure = plt.figure(figsize=(11, 4.6))
     space, plot = figure.add_subplot(1, 2, 1, projection="3d"), figure.add_subplot(1, 2, 2)
     with h5py.File(result / "fields.h5") as fields:
@@ -58,10 +63,10 @@ def main(result: pathlib.Path, time: float, picture: pathlib.Path):
     space.set_box_aspect((3, 3, 1.5), zoom=1.7)
     space.set_axis_off()
     space.view_init(elev=22, azim=-60)
-    draw_probe(plot, result, "net_centre.displacement_z_m", time)
+    draw_probe(plot, result, probe, time)
     figure.tight_layout()
     figure.savefig(picture, dpi=110)
 
 
 if __name__ == "__main__":
-    main(pathlib.Path(sys.argv[1]), float(sys.argv[2]), pathlib.Path(sys.argv[3]))
+    main(pathlib.Path(sys.argv[1]), float(sys.argv[2]), pathlib.Path(sys.argv[3]), *sys.argv[4:])

@@ -33,11 +33,14 @@ struct PublishedSurface {
   std::vector<std::size_t> parts;  ///< numbers of its parts, in their order
 };
 
-const Part& find_part(const Model& model, const std::string& name) {
-  const auto part = std::ranges::find(model.parts, name, &Part::name);
-  if (part == model.parts.end())
+/// Numbers of the parts that one of the scene has become.
+std::vector<std::size_t> find_parts(const Model& model, const std::string& name) {
+  std::vector<std::size_t> found;
+  for (std::size_t p = 0; p < model.parts.size(); ++p)
+    if (model.parts[p].name == name || model.parts[p].scene_part == name) found.push_back(p);
+  if (found.empty())
     throw core::ConfigError(fmt::format("interface.structure: the structure has no part '{}'", name));
-  return *part;
+  return found;
 }
 
 template <std::size_t N>
@@ -51,6 +54,7 @@ std::array<mesh::Index, N> renumbered(const std::array<Index, N>& cell, const st
 void add_cells(const Part& part, const std::vector<Index>& number, mesh::Surface& surface) {
   mesh::SurfacePart& run = surface.parts.emplace_back();
   run.name = part.name;
+  run.wire_radius = part.wire_radius;
   run.segment_begin = static_cast<mesh::Index>(surface.segments.size());
   run.triangle_begin = static_cast<mesh::Index>(surface.triangles.size());
   std::visit(
@@ -66,30 +70,37 @@ void add_cells(const Part& part, const std::vector<Index>& number, mesh::Surface
   run.triangle_end = static_cast<mesh::Index>(surface.triangles.size());
 }
 
+void add_node(const Model& model, Index node, std::span<const double> start, PublishedSurface& published) {
+  published.nodes.push_back(node);
+  const Vector3 x = model.position(node);
+  published.surface.positions.insert(published.surface.positions.end(), x.begin(), x.end());
+  if (start.empty()) return;
+  const auto u = start.subspan(3 * static_cast<std::size_t>(node), 3);
+  published.surface.start.insert(published.surface.start.end(), u.begin(), u.end());
+}
+
 /// @param start m; displacement at time 0, 3 a node of the model; empty: none
-PublishedSurface published_surface(const Model& model, const std::vector<std::string>& parts,
+PublishedSurface published_surface(const Model& model, const std::vector<std::string>& names,
                                    std::span<const double> start) {
   PublishedSurface published;
   std::vector<Index> number(static_cast<std::size_t>(model.nodes()), -1);
-  const std::vector<bool> held = held_nodes(model);
-  for (const auto& name : parts) {
-    const Part& part = find_part(model, name);
-    for (const Index node : part.nodes) {
-      auto& own = number[static_cast<std::size_t>(node)];
-      if (own >= 0) continue;
-      own = static_cast<Index>(published.nodes.size());
-      published.nodes.push_back(node);
-      published.masses.push_back(held[static_cast<std::size_t>(node)]
-                                     ? std::numeric_limits<double>::infinity()
-                                     : model.node_masses[static_cast<std::size_t>(node)]);
-      const Vector3 x = model.position(node);
-      published.surface.positions.insert(published.surface.positions.end(), x.begin(), x.end());
-      if (start.empty()) continue;
-      const auto u = start.subspan(3 * static_cast<std::size_t>(node), 3);
-      published.surface.start.insert(published.surface.start.end(), u.begin(), u.end());
+  for (const auto& name : names)
+    for (const std::size_t p : find_parts(model, name)) {
+      const Part& part = model.parts[p];
+      for (const Index node : part.nodes) {
+        auto& own = number[static_cast<std::size_t>(node)];
+        if (own >= 0) continue;
+        own = static_cast<Index>(published.nodes.size());
+        add_node(model, node, start, published);
+      }
+      add_cells(part, number, published.surface);
+      published.parts.push_back(p);
     }
-    add_cells(part, number, published.surface);
-    published.parts.push_back(static_cast<std::size_t>(&part - model.parts.data()));
+  const std::vector<bool> held = held_nodes(model);
+  for (const Index node : published.nodes) {
+    const auto place = static_cast<std::size_t>(node);
+    published.masses.push_back(held[place] ? std::numeric_limits<double>::infinity()
+                                           : model.node_masses[place]);
   }
   return published;
 }
@@ -112,7 +123,8 @@ void publish_losses(const Structure& structure, const PublishedSurface& publishe
         [&](const auto& batch) {
           if constexpr (Breaks<std::decay_t<decltype(batch)>>)
             for (Index e = 0; e < std::ssize(batch.cells()); ++e)
-              lost[static_cast<std::size_t>(cells.segment_begin + e)] = batch.is_broken(at, e) ? 1 : 0;
+              lost[static_cast<std::size_t>(cells.segment_begin + e)] =
+                  batch.is_broken(at, element_of(batch, e)) ? 1 : 0;
         },
         part.elements);
   }

@@ -107,6 +107,7 @@ void add_effects_of_part(std::vector<StructuralEffect>& effects, const std::stri
   if (std::holds_alternative<ElasticPlasticCableScene>(element))
     dissipating("yielding", ".elastic_plastic_cable");
   if (std::holds_alternative<BrakeScene>(element)) dissipating("braking", ".brake");
+  if (std::holds_alternative<RingScene>(element)) dissipating("bending of rings", ".ring");
 }
 
 /// The integrator that a method of the scene means.
@@ -186,6 +187,7 @@ std::vector<StructuralEffect> Structure::effects(const StructureScene& scene) co
     return effects.emplace_back(effect_at(effect, std::string("structure.") + key, present));
   };
   for (const auto& [name, part] : scene.parts) {
+    if (has_no_element(part)) continue;
     add_effects_of_part(effects, name, part.element);
     const std::string key = "parts." + name;
     if (part.gravity)

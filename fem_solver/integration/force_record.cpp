@@ -64,7 +64,7 @@ void note_ruptures(const Model& model, const Batch& batch, double time, const Co
     if (batch.is_broken(at, e) || !batch.is_broken(after, e)) continue;
     row[broken] += 1;
     if (row[broken] > 1) continue;
-    const auto [near, far] = batch.cells()[static_cast<std::size_t>(e)];
+    const auto [near, far] = batch.cells()[static_cast<std::size_t>(first_cell(batch, e))];
     const auto place = [&](Index node) {
       return Vector3(model.position(node) +
                      Vector3::Map(&at.displacement[3 * static_cast<std::size_t>(node)]));

@@ -127,9 +127,10 @@ std::string formula(double frequency, double damping) {
 
 /// A part that can hang slack, and does.
 template <class Batch>
-constexpr bool may_be_slack = std::is_same_v<Batch, CableBatch> || std::is_same_v<Batch, SlidingCableBatch> ||
-                              std::is_same_v<Batch, FrictionalCableBatch> ||
-                              std::is_same_v<Batch, ElasticPlasticBatch> || Breaks<Batch>;
+constexpr bool may_be_slack =
+    std::is_same_v<Batch, CableBatch> || std::is_same_v<Batch, SlidingCableBatch> ||
+    std::is_same_v<Batch, FrictionalCableBatch> || std::is_same_v<Batch, ElasticPlasticBatch> ||
+    std::is_same_v<Batch, PlainRingBatch> || Breaks<Batch>;
 template <class Batch>
 bool is_slack(const Batch& batch, const Configuration& at) {
   if constexpr (!may_be_slack<Batch>)

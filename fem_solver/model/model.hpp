@@ -15,6 +15,7 @@
 #include "fem_solver/model/obstacle_batch.hpp"
 #include "fem_solver/model/path_batch.hpp"
 #include "fem_solver/model/penalty_slide_batch.hpp"
+#include "fem_solver/model/ring_batch.hpp"
 #include "fem_solver/model/rope_batch.hpp"
 #include "fem_solver/model/two_node_batch.hpp"
 #include "fem_solver/model/user_batch.hpp"
@@ -43,8 +44,8 @@ using ElementBatch =
     std::variant<BarBatch, CableBatch, SlidingCableBatch, PlainMembraneBatch, TensionFieldBatch,
                  PrincipalTensionFieldBatch, FrictionalCableBatch, BrakeBatch, ElasticPlasticBatch,
                  BreakingCableBatch, BreakingElasticPlasticBatch, BreakingBrakeBatch, BreakingRopeBatch,
-                 BreakingFrictionalCableBatch, PenaltySlideBatch, ObstacleBatch, UserLineBatch,
-                 UserTriangleBatch>;
+                 BreakingFrictionalCableBatch, PlainRingBatch, BreakingRingBatch, PenaltySlideBatch,
+                 ObstacleBatch, UserLineBatch, UserTriangleBatch>;
 
 struct Part {
   std::string name;
@@ -53,6 +54,8 @@ struct Part {
   double breaking_load = 0;      ///< N; 0: not known
   double buckling_load = 0;      ///< N; of its longest element by Euler; 0: not known
   double stiffness_damping = 0;  ///< s; times damping_product(); lowers the step limit
+  std::string scene_part;        ///< key of the scene's part; a net with double twists makes two parts of one
+  double wire_radius = 0;        ///< m; of what a rock touches, where the part's shape knows it
 };
 
 /// A factor over time, linear between its points and constant beyond them; empty: 1.

@@ -110,6 +110,23 @@ concept Breaks = requires(const Batch& batch, const Configuration& at) {
   batch.is_broken(at, Index{});
 };
 
+/// The element that a line of an output or a boundary is of, where elements are not their lines.
+template <class Batch>
+Index element_of(const Batch& batch, Index cell) {
+  if constexpr (requires { batch.element_of(cell); })
+    return batch.element_of(cell);
+  else
+    return cell;
+}
+/// Its first line.
+template <class Batch>
+Index first_cell(const Batch& batch, Index element) {
+  if constexpr (requires { batch.first_cell(element); })
+    return batch.first_cell(element);
+  else
+    return element;
+}
+
 using BrakeBatch = PathBatch<BrakeLaw>;
 using ElasticPlasticBatch = PathBatch<ElasticPlasticRope>;
 using BreakingCableBatch = PathBatch<Breaking<ElasticRope>>;

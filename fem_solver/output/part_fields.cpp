@@ -131,6 +131,34 @@ struct BreakingRopeQuantities {
       {"dissipated_J", [](const Batch& b, At u) { return b.dissipated(u); }}};
 };
 
+template <class Law>
+struct RingQuantities {
+  using Batch = RingBatch<Law>;
+  static constexpr core::CellKind kind = core::CellKind::segment;
+  static double broken(const Batch& b, At u, Index ring) {
+    if constexpr (Breaks<Batch>)
+      return b.is_broken(u, ring) ? 1 : 0;
+    else
+      return 0;
+  }
+  static constexpr CellQuantity<Batch> cells[] = {
+      {"axial_force", "N", [](const Batch& b, At u, Index e) { return b.axial_force(u, b.element_of(e)); }},
+      {"elongation", "m", [](const Batch& b, At u, Index e) { return b.elongation(u, b.element_of(e)); }},
+      {"broken", "1", [](const Batch& b, At u, Index e) { return broken(b, u, b.element_of(e)); }}};
+  static constexpr PartQuantity<Batch> whole[] = {
+      {"axial_force_max_N",
+       [](const Batch& b, At u) { return largest(b, [&](Index e) { return b.axial_force(u, e); }); }},
+      {"elongation_max_m",
+       [](const Batch& b, At u) { return largest(b, [&](Index e) { return b.elongation(u, e); }); }},
+      {"broken_1",
+       [](const Batch& b, At u) {
+         double count = 0;
+         for (Index e = 0; e < b.size(); ++e) count += broken(b, u, e);
+         return count;
+       }},
+      {"dissipated_J", [](const Batch& b, At u) { return b.dissipated(u); }}};
+};
+
 struct ObstacleQuantities {
   using Batch = ObstacleBatch;
   static constexpr core::CellKind kind = core::CellKind::vertex;
@@ -220,6 +248,8 @@ template <>
 struct QuantitiesOf<FrictionalCableBatch> : FrictionalRopeQuantities {};
 template <class Rope>
 struct QuantitiesOf<BreakingRope<Rope>> : BreakingRopeQuantities<Rope> {};
+template <class Law>
+struct QuantitiesOf<RingBatch<Law>> : RingQuantities<Law> {};
 template <std::size_t nodes>
 struct QuantitiesOf<UserBatch<nodes>> : UserQuantities<nodes> {};
 template <>

@@ -25,10 +25,12 @@ namespace {
 
 /// A part between being meshed and becoming a batch: elements by the model's node numbers.
 struct MeshedPart {
-  std::string name;
+  std::string name, scene_name;
   const PartScene* scene = nullptr;
-  std::vector<std::array<Index, 2>> segments;
-  std::vector<std::array<Index, 3>> triangles;
+  std::vector<std::array<Index, 2>> segments{};
+  std::vector<std::array<Index, 3>> triangles{};
+  int wires = 1;           ///< side by side in each segment
+  double wire_radius = 0;  ///< m
 };
 
 class Builder {
@@ -83,6 +85,7 @@ class Builder {
   std::vector<MeshedPart> parts_;
   std::vector<Index> part_of_node_;
   std::map<std::string, mesh::GroupCells> groups_;  ///< that parts take of the structure's mesh file
+  Index meshes_ = 0;                                ///< made so far
 };
 
 /// Its nodes count as those of one part where parts are welded: they are joined as the file numbers them.
@@ -113,6 +116,8 @@ void Builder::mesh_parts() {
           using Shape = std::decay_t<decltype(shape)>;
           if constexpr (std::is_same_v<Shape, GroupScene>)
             add_group(name, part, shape.name);
+          else if constexpr (std::is_same_v<Shape, mesh::RingNetScene>)
+            add_mesh(name, part, is_made_of_rings(part) ? generate_polygons(shape) : generate(shape));
           else if constexpr (!std::is_same_v<Shape, ThroughScene>)
             add_mesh(name, part, generate(shape));
         },
@@ -122,7 +127,11 @@ void Builder::mesh_parts() {
 
 void Builder::add_group(const std::string& name, const PartScene& part, const std::string& group) {
   const mesh::GroupCells& cells = groups_.at(group);
-  parts_.push_back({name, &part, cells.segments, cells.triangles});
+  parts_.push_back({.name = name,
+                    .scene_name = name,
+                    .scene = &part,
+                    .segments = cells.segments,
+                    .triangles = cells.triangles});
   std::vector<Index>& nodes = model_.node_sets[name];
   nodes.clear();  // a group of the same name lists the same nodes
   std::vector<bool> listed(static_cast<std::size_t>(model_.nodes()));
@@ -138,15 +147,47 @@ void Builder::add_group(const std::string& name, const PartScene& part, const st
   list(cells.triangles);
 }
 
+/// Runs of a surface whose segments have the same number of wires: the first of them has no name, others that of the
+/// pattern's part, such as `twist`.
+std::vector<mesh::SurfacePart> runs_of_wires(const mesh::Surface& surface) {
+  std::vector<mesh::SurfacePart> runs{{.segment_end = static_cast<Index>(surface.segments.size()),
+                                       .triangle_end = static_cast<Index>(surface.triangles.size())}};
+  if (surface.parts.empty()) return runs;
+  runs.front().wires = surface.parts.front().wires;
+  runs.front().wire_radius = surface.parts.front().wire_radius;
+  for (const auto& part : surface.parts) {
+    if (part.wires == runs.back().wires) continue;
+    runs.back().segment_end = part.segment_begin;
+    runs.push_back(part);
+    runs.back().segment_end = static_cast<Index>(surface.segments.size());
+  }
+  std::erase_if(runs, [](const mesh::SurfacePart& run) {
+    return run.segment_begin == run.segment_end && run.triangle_begin == run.triangle_end;
+  });
+  return runs;
+}
+
 void Builder::add_mesh(const std::string& name, const PartScene& part, const mesh::Net& net) {
-  mesh::check(net.surface, part.place + ": structure.parts." + name);
+  if (!has_no_element(part)) mesh::check(net.surface, part.place + ": structure.parts." + name);
   const Index first = model_.nodes();
   model_.reference.insert(model_.reference.end(), net.surface.positions.begin(), net.surface.positions.end());
-  part_of_node_.resize(static_cast<std::size_t>(model_.nodes()), static_cast<Index>(parts_.size()));
-  MeshedPart& meshed = parts_.emplace_back(MeshedPart{name, &part, {}, {}});
-  for (const auto& [a, b] : net.surface.segments) meshed.segments.push_back({first + a, first + b});
-  for (const auto& [a, b, c] : net.surface.triangles)
-    meshed.triangles.push_back({first + a, first + b, first + c});
+  part_of_node_.resize(static_cast<std::size_t>(model_.nodes()), meshes_++);
+  for (const mesh::SurfacePart& run : runs_of_wires(net.surface)) {
+    MeshedPart& meshed =
+        parts_.emplace_back(MeshedPart{.name = run.name.empty() ? name : name + "." + run.name,
+                                       .scene_name = name,
+                                       .scene = &part,
+                                       .wires = run.wires,
+                                       .wire_radius = run.wire_radius});
+    for (Index s = run.segment_begin; s < run.segment_end; ++s) {
+      const auto [a, b] = net.surface.segments[static_cast<std::size_t>(s)];
+      meshed.segments.push_back({first + a, first + b});
+    }
+    for (Index t = run.triangle_begin; t < run.triangle_end; ++t) {
+      const auto [a, b, c] = net.surface.triangles[static_cast<std::size_t>(t)];
+      meshed.triangles.push_back({first + a, first + b, first + c});
+    }
+  }
   for (const auto& set : net.node_sets) {
     auto& nodes = model_.node_sets[set.name == "nodes" ? name : name + "." + set.name];
     for (const Index node : set.nodes) nodes.push_back(first + node);
@@ -235,7 +276,7 @@ void Builder::lead_through(const std::string& name, const PartScene& part, const
     core::log_warning(fmt::format(
         "{}: structure.parts.{}: the rope turns back at {}: are its sets in their order along it?",
         part.place, name, node_name(model_, node)));
-  MeshedPart& meshed = parts_.emplace_back(MeshedPart{name, &part, {}, {}});
+  MeshedPart& meshed = parts_.emplace_back(MeshedPart{.name = name, .scene_name = name, .scene = &part});
   for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
     if ((model_.position(nodes[i]) - model_.position(nodes[i + 1])).isZero(0))
       throw core::ConfigError(
@@ -259,10 +300,13 @@ void Builder::add_elements(MeshedPart& part) {
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   const MeshedElements elements{fmt::format("{}: structure.parts.{}", part.scene->place, part.name),
                                 std::move(part.segments), std::move(part.triangles)};
-  model_.parts.push_back({part.name, make_elements(part.scene->element, elements, model_), std::move(nodes)});
+  const ElementScene element = of_wires(part.scene->element, part.wires);
+  model_.parts.push_back({part.name, make_elements(element, elements, model_), std::move(nodes)});
   Part& made = model_.parts.back();
-  made.breaking_load = breaking_load_of(part.scene->element);
-  made.buckling_load = buckling_load_of(part.scene->element, made.elements);
+  made.breaking_load = breaking_load_of(element);
+  made.buckling_load = buckling_load_of(element, made.elements);
+  made.scene_part = part.scene_name;
+  made.wire_radius = part.wire_radius;
 }
 
 std::string label(const char* kind, std::size_t number, const NodeSelection& where) {

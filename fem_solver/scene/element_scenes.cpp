@@ -156,6 +156,39 @@ void describe(core::Fields& fields, BrakeScene& brake) {
   fields.section("breaks", brake.breaks, "brakes that bear more are lost; none are where absent");
 }
 
+void describe(core::Fields& fields, RingBreaksScene& breaks) {
+  fields.optional(
+      "force", breaks.force,
+      {.unit = "N",
+       .range = core::positive,
+       .help = "along the ring, half of what a chain of rings bears; as calibrated where absent"});
+}
+
+void describe(core::Fields& fields, RingScene& ring) {
+  fields.optional("windings", ring.windings,
+                  {.range = {.low = 1, .high = 100},
+                   .help = "how often the wire goes round; a `ring_net` says it itself"});
+  fields.optional("wire_diameter", ring.wire_diameter,
+                  {.unit = "m",
+                   .range = core::positive,
+                   .help = "diameter of a single wire; a `ring_net` says it itself"});
+  fields.optional(
+      "inner_diameter", ring.inner_diameter,
+      {.unit = "m", .range = core::positive, .help = "of a round ring; a `ring_net` says it itself"});
+  fields.with_default("density", ring.density,
+                      {.unit = "kg/m^3",
+                       .range = core::positive,
+                       .help = "mass over volume of the wire",
+                       .plausible = core::plausible::density});
+  fields.with_default("strength", ring.strength,
+                      {.unit = "Pa",
+                       .range = core::positive,
+                       .help = "of the wire; tensions of rings are in proportion to it",
+                       .plausible = core::plausible::strength});
+  describe_breaking_load(fields, ring.breaking_load);
+  fields.section("breaks", ring.breaks, "rings that bear more are lost; none are where absent");
+}
+
 void describe(core::Fields& fields, IsotropicSheet& sheet) {
   fields.required("youngs_modulus", sheet.youngs_modulus,
                   {.unit = "Pa",
@@ -275,14 +308,16 @@ void describe(core::Fields& fields, UserElementScene& element) {
 }
 
 void describe_element(core::Fields& fields, ElementScene& element) {
-  fields.one_of(element,
-                {{"bar", "carries tension and compression"},
-                 {"cable", "carries tension only"},
-                 {"sliding_cable", "one rope that runs through all its nodes, tension only"},
-                 {"elastic_plastic_cable", "carries tension only, yields and hardens"},
-                 {"brake", "force over elongation from a table, plastic, with an end stop"},
-                 {"membrane", "a homogenised net or sheet of triangles in plane stress"},
-                 {"user_element", "one that a program of its own has (docs/extending_structure.md)"}});
+  fields.one_of(
+      element,
+      {{"bar", "carries tension and compression"},
+       {"cable", "carries tension only"},
+       {"sliding_cable", "one rope that runs through all its nodes, tension only"},
+       {"elastic_plastic_cable", "carries tension only, yields and hardens"},
+       {"brake", "force over elongation from a table, plastic, with an end stop"},
+       {"ring", "closed rings of wire that run freely through the nodes where their neighbours touch them"},
+       {"membrane", "a homogenised net or sheet of triangles in plane stress"},
+       {"user_element", "one that a program of its own has (docs/extending_structure.md)"}});
 }
 
 }  // namespace talus::fem

@@ -80,6 +80,24 @@ struct BrakeScene {
 };
 void describe(core::Fields& fields, BrakeScene& brake);
 
+/// When a ring is lost.
+struct RingBreaksScene {
+  std::optional<double> force;  ///< N, along the ring; absent: as calibrated
+};
+void describe(core::Fields& fields, RingBreaksScene& breaks);
+
+/// Closed rings of wire; in a part with `ring_net` the net says how they are wound.
+struct RingScene {
+  std::optional<std::int64_t> windings;
+  std::optional<double> wire_diameter;   ///< m
+  std::optional<double> inner_diameter;  ///< m
+  double density = 7850;                 ///< kg/m^3
+  double strength = 1.77e9;              ///< Pa
+  std::optional<double> breaking_load;   ///< N
+  std::optional<RingBreaksScene> breaks;
+};
+void describe(core::Fields& fields, RingScene& ring);
+
 void describe(core::Fields& fields, IsotropicSheet& sheet);
 
 struct OrthotropicScene {
@@ -117,7 +135,7 @@ struct UserElementScene {
 void describe(core::Fields& fields, UserElementScene& element);
 
 using ElementScene = std::variant<BarScene, CableScene, SlidingCableScene, ElasticPlasticCableScene,
-                                  BrakeScene, MembraneScene, UserElementScene>;
+                                  BrakeScene, RingScene, MembraneScene, UserElementScene>;
 void describe_element(core::Fields& fields, ElementScene& element);
 
 }  // namespace talus::fem

@@ -11,6 +11,11 @@ concept RepeatingNet = requires(const Shape& shape) {
   lattice(shape);
 };
 
+AxialSection of_wires(AxialSection section, int wires) {
+  section.area *= wires;
+  return section;
+}
+
 }  // namespace
 
 PeriodicNet periodic_net(const mesh::Lattice& lattice, const AxialSection& section, double density) {
@@ -23,7 +28,7 @@ PeriodicNet periodic_net(const mesh::Lattice& lattice, const AxialSection& secti
     net.wires.push_back({.near = static_cast<int>(link.from),
                          .far = static_cast<int>(link.to),
                          .reference = {reference.x(), reference.y(), 0},
-                         .section = section,
+                         .section = of_wires(section, lattice.parts[link.part].wires),
                          .density = density});
   }
   return net;

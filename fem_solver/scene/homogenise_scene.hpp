@@ -6,7 +6,7 @@
 
 namespace talus::fem {
 
-/// A cell of a net whose links are all cables of one section.
+/// A cell of a net whose wires are all cables of one section; a double twist has two.
 PeriodicNet periodic_net(const mesh::Lattice& lattice, const AxialSection& section, double density);
 
 /// The cell of a structure part.

@@ -8,6 +8,7 @@
 
 #include "core/errors.hpp"
 #include "fem_solver/scene/node_sets.hpp"
+#include "interface_mesh/net_patterns.hpp"
 
 namespace talus::fem {
 namespace {
@@ -39,6 +40,21 @@ BreakingLimits limits_of(const BreaksScene& breaks) {
   return {.force = breaks.force.value_or(none),
           .strain = breaks.strain.value_or(none),
           .work = breaks.work.value_or(none)};
+}
+
+RingDescription description_of(const RingScene& scene) {
+  return {.windings = static_cast<int>(*scene.windings),
+          .wire_diameter = *scene.wire_diameter,
+          .inner_diameter = *scene.inner_diameter,
+          .strength = scene.strength};
+}
+
+/// kg; of all windings.
+double ring_mass(const RingDescription& ring, double density) {
+  const mesh::RingPattern pattern{
+      .inner_diameter = ring.inner_diameter, .wire_diameter = ring.wire_diameter, .windings = ring.windings};
+  const double pi = std::numbers::pi, axis = pi * (ring.inner_diameter + pattern.bundle_diameter());
+  return density * ring.windings * pi / 4 * ring.wire_diameter * ring.wire_diameter * axis;
 }
 
 struct Maker {
@@ -85,6 +101,16 @@ struct Maker {
       return BreakingBrakeBatch({{brake_law(brake), limits_of(*brake.breaks)}, brake.mass_per_length},
                                 elements.segments, model.reference);
     return BrakeBatch({brake_law(brake), brake.mass_per_length}, elements.segments, model.reference);
+  }
+  ElementBatch operator()(const RingScene& scene) const {
+    need_segments("ring");
+    const RingDescription ring = description_of(scene);
+    const RingLaw law = ring_law(ring);
+    const double mass = ring_mass(ring, scene.density);
+    if (!scene.breaks)
+      return PlainRingBatch({law, mass, ring.inner_diameter}, elements.segments, model.reference);
+    const BreakingLimits limits{.force = scene.breaks->force.value_or(law.breaking().tension)};
+    return BreakingRingBatch({{law, limits}, mass, ring.inner_diameter}, elements.segments, model.reference);
   }
   ElementBatch operator()(const MembraneScene& membrane) const {
     if (elements.triangles.empty())
@@ -135,12 +161,38 @@ struct Maker {
 
 }  // namespace
 
+ElementScene of_wires(const ElementScene& scene, int wires) {
+  ElementScene together = scene;
+  if (wires == 1) return together;
+  std::visit(
+      [&](auto& element) {
+        using Element = std::decay_t<decltype(element)>;
+        const auto times = [&](std::optional<double>& value) {
+          if (value) *value *= wires;
+        };
+        if constexpr (std::is_base_of_v<AxialScene, Element>) {
+          element.area *= wires;
+          times(element.breaking_load);
+          if constexpr (std::is_same_v<Element, BarScene>) times(element.second_moment);
+          if constexpr (requires { element.breaks; })
+            if (element.breaks) {
+              times(element.breaks->force);
+              times(element.breaks->work);
+            }
+        }
+      },
+      together);
+  return together;
+}
+
 double breaking_load_of(const ElementScene& scene) {
   return std::visit(
       [](const auto& element) {
         std::optional<double> load;
+        if constexpr (std::is_same_v<std::decay_t<decltype(element)>, RingScene>)
+          load = ring_law(description_of(element)).breaking().tension;
         if constexpr (requires { element.breaks; })
-          if (element.breaks) load = element.breaks->force;
+          if (element.breaks && element.breaks->force) load = element.breaks->force;
         if constexpr (requires { element.breaking_load; })
           if (element.breaking_load) load = element.breaking_load;
         return load.value_or(0);

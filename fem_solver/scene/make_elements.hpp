@@ -16,7 +16,11 @@ struct MeshedElements {
   std::vector<std::array<Index, 3>> triangles;
 };
 
-/// N; of the key `breaking_load`, or else of `breaks.force`. 0: not known
+/// What a scene writes for one wire, of several side by side: area and what it bears are theirs together.
+/// An element without area stays as it is.
+ElementScene of_wires(const ElementScene& scene, int wires);
+
+/// N; of the key `breaking_load`, or else of `breaks.force`, or of the calibration of rings. 0: not known
 double breaking_load_of(const ElementScene& scene);
 
 /// N; pi^2 E I/L^2 (Euler) of the longest bar of a part whose scene gives I, hinged at both ends. 0: not known

@@ -7,8 +7,9 @@
 namespace talus::fem {
 namespace {
 
-const PartScene* scene_of(const StructureScene& scene, const std::string& name) {
-  const auto found = std::ranges::find(scene.parts, name, [](const auto& entry) { return entry.first; });
+const PartScene* scene_of(const StructureScene& scene, const Part& part) {
+  const auto found =
+      std::ranges::find(scene.parts, part.scene_part, [](const auto& entry) { return entry.first; });
   return found == scene.parts.end() ? nullptr : &found->second;  // slides are parts that no scene has
 }
 
@@ -29,7 +30,7 @@ void add_weight(std::span<const double> masses, const Vector3& gravity, std::vec
 
 void weigh(const StructureScene& scene, std::span<const double> point_masses, Model& model) {
   const auto own = [&](const Part& part) -> const std::optional<core::Vector3>* {
-    const PartScene* written = scene_of(scene, part.name);
+    const PartScene* written = scene_of(scene, part);
     return written && written->gravity ? &written->gravity : nullptr;
   };
   if (scene.gravity) {
@@ -46,7 +47,7 @@ void weigh(const StructureScene& scene, std::span<const double> point_masses, Mo
 void damp(const StructureScene& scene, std::span<const double> point_masses, Model& model) {
   const DampingScene of_all = scene.damping.value_or(DampingScene{});
   const auto of = [&](const Part& part) {
-    const PartScene* written = scene_of(scene, part.name);
+    const PartScene* written = scene_of(scene, part);
     return written && written->damping ? *written->damping : of_all;
   };
   for (Part& part : model.parts) part.stiffness_damping = of(part).stiffness;

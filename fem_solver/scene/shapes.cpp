@@ -29,6 +29,15 @@ Index node_number(double written, const mesh::Surface& surface) {
   return static_cast<Index>(written);
 }
 
+/// Nodes that can be named by their numbers.
+mesh::Net numbered_nodes(const std::vector<core::Vector3>& places) {
+  mesh::Net net;
+  for (const auto& node : places) append(net.surface, node);
+  net.node_sets = {all_nodes(net.surface)};
+  for (Index i = 0; i < net.surface.node_count(); ++i) net.node_sets.push_back({std::to_string(i), {i}});
+  return net;
+}
+
 }  // namespace
 
 void describe(core::Fields& fields, PolylineScene& polyline) {
@@ -48,6 +57,11 @@ void describe(core::Fields& fields, MeshScene& mesh) {
               "needs either `segments` or `triangles`");
 }
 
+void describe(core::Fields& fields, NodesScene& nodes) {
+  fields.required("at", nodes.at, {.unit = "m", .help = "positions of the nodes, numbered from 0"});
+  fields.rule(!nodes.at.empty(), "at", "needs at least one node");
+}
+
 void describe(core::Fields& fields, ThroughScene& through) {
   fields.required("nodes", through.nodes,
                   {.help = "node sets the rope runs through, in this order: [net.edge_south]"});
@@ -60,14 +74,15 @@ void describe(core::Fields& fields, GroupScene& group) {
 }
 
 void describe_shape(core::Fields& fields, ShapeScene& shape) {
-  fields.one_of(shape, mesh::net_alternatives({{"sheet", "a panel filled with triangles"},
-                                               {"mesh_file", "a mesh made elsewhere"},
-                                               {"polyline", "a rope or bar along straight lines"},
-                                               {"mesh", "nodes and elements written out"},
-                                               {"through", "a rope through nodes of other parts"},
-                                               {"group",
-                                                "a group of the structure's mesh file, whose groups "
-                                                "share their nodes"}}));
+  fields.one_of(shape,
+                mesh::net_alternatives(
+                    {{"sheet", "a panel filled with triangles"},
+                     {"mesh_file", "a mesh made elsewhere"},
+                     {"polyline", "a rope or bar along straight lines"},
+                     {"mesh", "nodes and elements written out"},
+                     {"nodes", "nodes alone, without an element: ropes run through them"},
+                     {"through", "a rope through nodes of other parts"},
+                     {"group", "a group of the structure's mesh file, whose groups share their nodes"}}));
 }
 
 mesh::Net generate(const PolylineScene& polyline) {
@@ -89,11 +104,12 @@ mesh::Net generate(const PolylineScene& polyline) {
   return net;
 }
 
+mesh::Net generate(const NodesScene& scene) {
+  return numbered_nodes(scene.at);
+}
+
 mesh::Net generate(const MeshScene& scene) {
-  mesh::Net net;
-  for (const auto& node : scene.nodes) append(net.surface, node);
-  net.node_sets = {all_nodes(net.surface)};
-  for (Index i = 0; i < net.surface.node_count(); ++i) net.node_sets.push_back({std::to_string(i), {i}});
+  mesh::Net net = numbered_nodes(scene.nodes);
   for (const auto& [a, b] : scene.segments)
     net.surface.segments.push_back({node_number(a, net.surface), node_number(b, net.surface)});
   for (const auto& t : scene.triangles)

@@ -32,6 +32,12 @@ struct MeshScene {
 };
 void describe(core::Fields& fields, MeshScene& mesh);
 
+/// `nodes:` nothing but nodes, for ropes that run through them. Node sets: nodes, and one a node named by its number.
+struct NodesScene {
+  std::vector<core::Vector3> at;  ///< m
+};
+void describe(core::Fields& fields, NodesScene& nodes);
+
 /// `through:` a rope through nodes of other parts, in the order of their sets. Node sets: nodes, start, end.
 struct ThroughScene {
   std::vector<std::string> nodes;     ///< node sets
@@ -48,11 +54,13 @@ struct GroupScene {
 void describe(core::Fields& fields, GroupScene& group);
 
 using ShapeScene = mesh::NetChoice<mesh::SheetScene, mesh::MeshFileScene, PolylineScene, MeshScene,
-                                   ThroughScene, GroupScene>;
+                                   NodesScene, ThroughScene, GroupScene>;
 void describe_shape(core::Fields& fields, ShapeScene& shape);
 
 mesh::Net generate(const PolylineScene& polyline);
 /// @throws core::ConfigError where an element names a node that is not there
 mesh::Net generate(const MeshScene& mesh);
+
+mesh::Net generate(const NodesScene& nodes);
 
 }  // namespace talus::fem

@@ -1,15 +1,52 @@
 #include "fem_solver/scene/structure_scene.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "core/scene/plausible.hpp"
+#include "interface_mesh/ring_panel.hpp"
 
 namespace talus::fem {
+
+namespace {
+
+/// A panel of rings says itself how they are wound; others have to be told.
+void complete_rings(core::Fields& fields, const ShapeScene& shape, RingScene& ring) {
+  const auto* net = std::get_if<mesh::RingNetScene>(&shape);
+  const bool given = ring.windings || ring.wire_diameter || ring.inner_diameter;
+  fields.rule(!net || !given, "ring", "has its windings and diameters from `ring_net`: leave them out here");
+  fields.rule(net || (ring.windings && ring.wire_diameter && ring.inner_diameter), "ring",
+              "needs `windings`, `wire_diameter` and `inner_diameter`, as the part is no `ring_net`");
+  if (!net || given || !net->panel.is_complete() || !(net->inner_diameter > 0)) return;
+  ring.windings = net->windings;
+  ring.wire_diameter = net->wire_diameter;
+  ring.inner_diameter = net->inner_diameter;
+  constexpr double most_misfit = 0.01;
+  const double misfit = mesh::misfit(net->inner_diameter, make_panel(net->panel));
+  fields.rule(
+      misfit <= most_misfit, "ring_net",
+      fmt::format("must have a size of whole rings to be made of them, but its rings of {:g} m would stand "
+                  "{:.3g} % too far apart or too near",
+                  net->inner_diameter, 100 * misfit));
+}
+
+bool has_area(const ElementScene& element) {
+  return std::visit(
+      [](const auto& scene) { return std::is_base_of_v<AxialScene, std::decay_t<decltype(scene)>>; },
+      element);
+}
+
+}  // namespace
 
 void describe(core::Fields& fields, PartScene& part) {
   part.place = fields.place();
   describe_shape(fields, part.shape);
+  if (has_no_element(part)) return;
   describe_element(fields, part.element);
+  if (auto* ring = std::get_if<RingScene>(&part.element)) complete_rings(fields, part.shape, *ring);
+  fields.rule(!std::holds_alternative<mesh::HexagonalNetScene>(part.shape) || has_area(part.element),
+              "hexagonal_net", "has twists of two wires and needs an element with `area`, such as `cable`");
   fields.optional(
       "gravity", part.gravity,
       {.unit = "m/s^2",

@@ -32,6 +32,13 @@ struct PartScene {
   std::optional<DampingScene> damping;   ///< in place of the structure's
 };
 void describe(core::Fields& fields, PartScene& part);
+/// Whether it is nothing but nodes, and `element` means nothing.
+inline bool has_no_element(const PartScene& part) {
+  return std::holds_alternative<NodesScene>(part.shape);
+}
+inline bool is_made_of_rings(const PartScene& part) {
+  return std::holds_alternative<RingScene>(part.element);
+}
 
 struct WeldScene {
   double tolerance = 0;  ///< m

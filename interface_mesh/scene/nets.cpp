@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "core/scene/plausible.hpp"
+#include "interface_mesh/ring_panel.hpp"
 
 namespace talus::mesh {
 
@@ -143,6 +144,12 @@ Net generate(const HexagonalNetScene& net) {
 }
 Net generate(const RingNetScene& net) {
   return clip(lattice(net), make_panel(net.panel));
+}
+
+Net generate_polygons(const RingNetScene& net) {
+  Net polygons = ring_polygons(net.inner_diameter, make_panel(net.panel));
+  polygons.surface.parts.front().wire_radius = net.pattern().bundle_diameter() / 2;
+  return polygons;
 }
 
 std::vector<core::Fields::Alternative> net_alternatives(

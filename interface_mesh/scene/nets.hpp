@@ -51,6 +51,8 @@ void describe(core::Fields& fields, RingNetScene& net);
 Net generate(const RhombicNetScene& net);
 Net generate(const HexagonalNetScene& net);
 Net generate(const RingNetScene& net);
+/// Its rings as the polygons through the points where they touch, for rings as elements.
+Net generate_polygons(const RingNetScene& net);
 
 /// The repeating pattern of a net, whatever its panel.
 Lattice lattice(const SquareNetScene& net);

@@ -42,6 +42,16 @@ std::vector<ElementBatch> every_kind(const std::vector<double>& nodes) {
   return kinds;
 }
 
+/// A ring of four nodes and one of two, that may break or not.
+std::vector<ElementBatch> rings(const std::vector<double>& nodes) {
+  const RingLaw law({4.6, 100}, {5, 1000});
+  const std::vector<std::array<Index, 2>> sides{{0, 1}, {1, 3}, {3, 2}, {2, 0}, {2, 5}, {5, 2}};
+  std::vector<ElementBatch> kinds;
+  kinds.push_back(PlainRingBatch({law, 1, 1}, sides, nodes));
+  kinds.push_back(BreakingRingBatch({{law, {.force = 800}}, 1, 1}, sides, nodes));
+  return kinds;
+}
+
 Model model_of(const std::vector<double>& nodes, ElementBatch batch) {
   Model model;
   model.reference = nodes;
@@ -64,41 +74,46 @@ Eigen::VectorXd damping_force(Assembly& assembly, const Eigen::VectorXd& u, cons
   return force;
 }
 
+/// In one state of a kind, drawn from the dice.
+void check_damping(ElementBatch kind, const std::vector<double>& nodes, Dice& dice) {
+  const Model model = model_of(nodes, std::move(kind));
+  const std::string name =
+      std::visit([](const auto& b) { return std::string(b.called()); }, model.parts[0].elements);
+  CAPTURE(name);
+  Assembly assembly(model);
+  const double size = dice.decades(1e-3, 0.3);
+  Eigen::VectorXd u(18), v(18), rigid(18);
+  for (Eigen::Index i = 0; i < 18; ++i) {
+    u[i] = dice.uniform(-size, size);
+    v[i] = dice.uniform(-5, 5);
+  }
+  const Vector3 along = dice.vector(3), spin = dice.vector(3);
+  for (Index k = 0; k < 6; ++k)
+    rigid.segment<3>(3 * k) = along + spin.cross(model.position(k) + u.segment<3>(3 * k));
+  const Eigen::VectorXd force = damping_force(assembly, u, v);
+  const double scale = 1e4;  // N s/m, of the stiffest of them
+  CHECK(force.dot(v) >= -1e-12 * scale);
+  CHECK(damping_force(assembly, u, rigid).norm() < 1e-11 * scale);
+  Eigen::VectorXd by_matrix = Eigen::VectorXd::Zero(18);
+  std::visit(
+      [&](const auto& batch) {
+        batch.damping_matrix(span_of(u), [&](Index row, Index column, const Matrix3& block) {
+          by_matrix.segment<3>(3 * row) += block * v.segment<3>(3 * column);
+        });
+      },
+      model.parts[0].elements);
+  CHECK((by_matrix - force).norm() < 1e-11 * scale);
+}
+
 }  // namespace
 
 TEST_CASE("damping of every kind of element takes energy, leaves rigid motions alone and is its own matrix") {
-  Dice dice(81);
+  Dice dice(81), dice_of_rings(83);
   for (int trial = 0; trial < 40; ++trial) {
+    CAPTURE(trial);
     const std::vector<double> nodes = nodes_at_random(dice);
-    for (ElementBatch& kind : every_kind(nodes)) {
-      const Model model = model_of(nodes, std::move(kind));
-      const std::string name =
-          std::visit([](const auto& b) { return std::string(b.called()); }, model.parts[0].elements);
-      CAPTURE(trial, name);
-      Assembly assembly(model);
-      const double size = dice.decades(1e-3, 0.3);
-      Eigen::VectorXd u(18), v(18), rigid(18);
-      for (Eigen::Index i = 0; i < 18; ++i) {
-        u[i] = dice.uniform(-size, size);
-        v[i] = dice.uniform(-5, 5);
-      }
-      const Vector3 along = dice.vector(3), spin = dice.vector(3);
-      for (Index k = 0; k < 6; ++k)
-        rigid.segment<3>(3 * k) = along + spin.cross(model.position(k) + u.segment<3>(3 * k));
-      const Eigen::VectorXd force = damping_force(assembly, u, v);
-      const double scale = 1e4;  // N s/m, of the stiffest of them
-      CHECK(force.dot(v) >= -1e-12 * scale);
-      CHECK(damping_force(assembly, u, rigid).norm() < 1e-11 * scale);
-      Eigen::VectorXd by_matrix = Eigen::VectorXd::Zero(18);
-      std::visit(
-          [&](const auto& batch) {
-            batch.damping_matrix(span_of(u), [&](Index row, Index column, const Matrix3& block) {
-              by_matrix.segment<3>(3 * row) += block * v.segment<3>(3 * column);
-            });
-          },
-          model.parts[0].elements);
-      CHECK((by_matrix - force).norm() < 1e-11 * scale);
-    }
+    for (ElementBatch& kind : every_kind(nodes)) check_damping(std::move(kind), nodes, dice);
+    for (ElementBatch& kind : rings(nodes)) check_damping(std::move(kind), nodes, dice_of_rings);
   }
 }
 
@@ -107,7 +122,9 @@ TEST_CASE("a slack rope and a slack sheet feel no damping") {
   const std::vector<double> nodes = nodes_at_random(dice);
   Eigen::VectorXd together(18), v = Eigen::VectorXd::Random(18);
   for (Eigen::Index i = 0; i < 18; ++i) together[i] = -0.3 * nodes[static_cast<std::size_t>(i)];  // shrunk
-  for (ElementBatch& kind : every_kind(nodes)) {
+  std::vector<ElementBatch> kinds = every_kind(nodes);
+  for (ElementBatch& kind : rings(nodes)) kinds.push_back(std::move(kind));
+  for (ElementBatch& kind : kinds) {
     const Model model = model_of(nodes, std::move(kind));
     const std::string name =
         std::visit([](const auto& b) { return std::string(b.called()); }, model.parts[0].elements);

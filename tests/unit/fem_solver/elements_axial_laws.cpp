@@ -2,6 +2,7 @@
 
 #include "core/errors.hpp"
 #include "fem_solver/elements/path_segment.hpp"
+#include "fem_solver/materials/ring_law.hpp"
 #include "tests/support/finite_differences.hpp"
 #include "tests/unit/fem_solver/elements_support.hpp"
 
@@ -13,6 +14,8 @@ namespace {
 
 const ElasticPlasticRope rope{{1e-4, 1e11, 1e8}, 5e8, 2e9};
 const BrakeLaw ring({{{0.02, 40e3}, {0.5, 60e3}, {0.8, 50e3}, {1.0, 90e3}}, 5e6, 0.05});
+
+const RingLaw wire_ring({2.6, 5e3}, {3, 50e3});
 
 /// Random walk of the length: work done by the trapezoid rule of fine steps, and what the law says of it.
 template <class Law>
@@ -51,6 +54,7 @@ void check_energy(const Law& law, double longest, unsigned seed) {
 TEST_CASE("work done on a law with memory is stored or dissipated, and the dissipated never falls") {
   check_energy(rope, 0.02, 61);
   check_energy(ring, 1.3, 62);
+  check_energy(wire_ring, 1.3, 65);
 }
 
 TEST_CASE("the stiffness of a segment with memory is the derivative of its force") {
@@ -73,6 +77,7 @@ TEST_CASE("the stiffness of a segment with memory is the derivative of its force
   };
   check(rope, 0.03, 0.01);
   check(ring, 1.3, 1.0);
+  check(wire_ring, 1.3, 1.0);
 }
 
 TEST_CASE("an elastic-plastic rope yields at its yield stress, hardens and unloads elastically") {
@@ -190,6 +195,7 @@ TEST_CASE(
   check(Breaking<ElasticRope>{{{1e-4, 1e11, 0}}, {.strain = 0.003}});
   check(Breaking<ElasticPlasticRope>{rope, {.strain = 0.05}});
   check(Breaking<ElasticPlasticRope>{rope, {.work = 2000}});
+  check(Breaking<RingLaw>{RingLaw({2.2, 5e3}, {2.4, 50e3}), {.force = 50e3}});
 }
 
 TEST_CASE("an elastic rope is the cable of the axial element") {

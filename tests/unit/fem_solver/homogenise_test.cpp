@@ -127,6 +127,36 @@ TEST_CASE("a stretched double-twist net has the same energy whether it got there
   CHECK(in_steps.energy_per_area() == Approx(response.energy_per_area()).epsilon(1e-10));
 }
 
+TEST_CASE(
+    "the twists of a double-twist net hold two wires: in its mass, and in the force of a cell solved by "
+    "hand") {
+  // 8 x 10: openings 0.08 m wide on rows 0.07 m apart, a twist of 0.04 m and two sides of 0.05 m each.
+  const auto net = hexagonal();
+  CHECK(net.mass_per_area() == Approx(7850 * area * (2 * 0.04 + 2 * 0.05) / (0.08 * 0.07)).epsilon(1e-12));
+
+  // Pulled along both axes the cell stays symmetric: one length is unknown, that of the twists. Each bears what the
+  // two slanted sides at its end bear along it.
+  const double stretch_x = 1.03, stretch_y = 1.02, half_width = 0.04 * stretch_x, row = 0.07 * stretch_y;
+  const auto tension = [](double wires, double now, double before) {
+    return wires * EA * (now * now - before * before) / (2 * before * before) * now / before;
+  };
+  double shortest = 0.04, longest = row;  // of a twist, which leaves the sides row - twist to rise by
+  const auto side_at = [&](double twist) { return std::hypot(half_width, row - twist); };
+  for (int step = 0; step < 100; ++step) {
+    const double twist = 0.5 * (shortest + longest), side = side_at(twist);
+    const bool pulls_more = tension(2, twist, 0.04) > 2 * tension(1, side, 0.05) * (row - twist) / side;
+    (pulls_more ? longest : shortest) = twist;
+  }
+  const double twist = 0.5 * (shortest + longest), side = side_at(twist);
+  fem::NetResponse response(net);
+  response.stretch_to({0.5 * (stretch_x * stretch_x - 1), 0.5 * (stretch_y * stretch_y - 1), 0});
+  // A cut along the twists meets one side in each row, a cut across them a twist in each opening; second
+  // Piola-Kirchhoff forces are those over the stretch.
+  const auto force = response.membrane_force();
+  CHECK(force.xx == Approx(tension(1, side, 0.05) * half_width / side / 0.07 / stretch_x).epsilon(1e-8));
+  CHECK(force.yy == Approx(tension(2, twist, 0.04) / 0.08 / stretch_y).epsilon(1e-8));
+}
+
 TEST_CASE("a net that is slack up to the strain asked for is refused") {
   const auto net = fem::periodic_net(lattice(mesh::SquarePattern{.pitch = pitch}), cable(-1e9), 7850);
   CHECK_THROWS_WITH(fem::fit_sheet(net, {.strain = 1e-3, .thickness = 1}),

@@ -103,6 +103,7 @@ TEST_CASE("bounds of stiffness hold for every kind of part, slack or taut, bent 
       BrakeBatch({BrakeLaw({{{0.02, 40e3}, {0.5, 60e3}}, 5e6, 0.05}), 1}, line, nodes),
       BreakingCableBatch({{elastic, {.force = 1e9}}, 0.785}, line, nodes),
       BreakingRopeBatch(SlidingCableBatch(rope, 0, line, nodes), {.force = 1e9}),
+      PlainRingBatch({RingLaw({2.5, 100}, {3, 1000}), 1, 1}, {{0, 1}, {1, 0}, {1, 2}, {2, 1}}, nodes),
       TensionFieldBatch({0.01, 1000, Vector3(1, 0, 0)},
                         TensionField<ExactWrinkles>(PlaneElasticity::from(IsotropicSheet{1e8, 0.3}), {}),
                         {{0, 1, 2}, {2, 3, 4}}, nodes)};

@@ -12,6 +12,7 @@
 #include "interface_mesh/closest_point.hpp"
 #include "interface_mesh/feature_tree.hpp"
 #include "interface_mesh/points.hpp"
+#include "interface_mesh/ring_panel.hpp"
 #include "interface_mesh/surface_checks.hpp"
 #include "interface_mesh/tubes.hpp"
 
@@ -245,4 +246,55 @@ TEST_CASE("tubes have the lateral area of prisms around the wires and point outw
   }
   const double length = wire_length(wires, {{"wire", 1}});
   CHECK(area == Approx(length * sides * 2 * 0.004 * std::sin(std::numbers::pi / sides)).epsilon(1e-12));
+}
+
+TEST_CASE("a panel of rings is as many closed polygons as go into it, with a node where two rings touch") {
+  const mesh::Net net = mesh::ring_polygons(0.3, rectangle(1.2, 0.9));
+  REQUIRE(net.surface.segments.size() == 4 * 12);
+  // 12 rings have 48 contacts; 3 x 3 + 4 x 2 = 17 of them are shared.
+  CHECK(net.surface.node_count() == 48 - 17);
+  for (std::size_t ring = 0; ring < 12; ++ring)
+    for (std::size_t k = 0; k < 4; ++k) {
+      const auto side = net.surface.segments[4 * ring + k];
+      CHECK(side[1] == net.surface.segments[4 * ring + (k + 1) % 4][0]);
+      const Vector3 a = mesh::point(net.surface.positions, side[0]),
+                    b = mesh::point(net.surface.positions, side[1]);
+      CHECK((b - a).norm() == Approx(0.3 / std::numbers::sqrt2).epsilon(1e-12));
+    }
+  CHECK(mesh::faults(net.surface).empty());
+}
+
+TEST_CASE(
+    "the rim of a panel of rings is the outer ends of its rings, counter-clockwise, without the corners") {
+  const mesh::Net net = mesh::ring_polygons(0.3, rectangle(1.2, 0.9));
+  const auto places = [&](const char* set) {
+    std::vector<std::array<double, 2>> all;
+    for (const Index node : net.find_set(set)->nodes) {
+      const Vector3 x = mesh::point(net.surface.positions, node);
+      all.push_back({std::round(1e6 * x.x()) / 1e6, std::round(1e6 * x.y()) / 1e6});
+    }
+    return all;
+  };
+  using Places = std::vector<std::array<double, 2>>;
+  CHECK(places("edge_south") == Places{{0.15, 0}, {0.45, 0}, {0.75, 0}, {1.05, 0}});
+  CHECK(places("edge_east") == Places{{1.2, 0.15}, {1.2, 0.45}, {1.2, 0.75}});
+  CHECK(places("edge_north") == Places{{1.05, 0.9}, {0.75, 0.9}, {0.45, 0.9}, {0.15, 0.9}});
+  CHECK(places("rim").size() == 14);
+  CHECK(
+      places("corners") ==
+      Places{{0, 0.15}, {0.15, 0}, {1.05, 0}, {1.2, 0.15}, {1.2, 0.75}, {1.05, 0.9}, {0.15, 0.9}, {0, 0.75}});
+}
+
+TEST_CASE(
+    "rings fit a rectangle that is nearly whole, and any other outline holds the whole ones inside it") {
+  CHECK(mesh::misfit(0.3, rectangle(3, 1.5)) == Approx(0).margin(1e-12));
+  CHECK(mesh::misfit(0.3, rectangle(3.03, 1.5)) == Approx(0.01).epsilon(1e-9));
+  const mesh::Net fitted = mesh::ring_polygons(0.3, rectangle(3.03, 1.5));
+  CHECK(fitted.surface.segments.size() == 4 * 50);
+  CHECK(fitted.find_set("edge_east")->nodes.size() == 5);
+  // A right angle of 1.2 m: 3 + 2 + 1 squares of rings below its slope, and of those cut by it the ones whose four
+  // nodes are inside, which is none.
+  const mesh::Panel triangle = mesh::make_panel(std::vector<Vector3>{{0, 0, 0}, {1.2, 0, 0}, {0, 1.2, 0}});
+  CHECK(mesh::ring_polygons(0.3, triangle).surface.segments.size() == 4 * 6);
+  CHECK_THROWS_AS(mesh::ring_polygons(2, triangle), core::ConfigError);
 }
