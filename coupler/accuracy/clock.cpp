@@ -66,11 +66,12 @@ Clock clock_of(const core::SceneFile& scene, const json& summary, Limits limits)
   Clock clock{.window = summary.at("window_s"),
               .sides = {},
               .coupled = scene.has_section("interface"),
-              .names_step = node_at(tree, "time.step") != nullptr};
+              .names_window = node_at(tree, "coupling.window") != nullptr};
   for (const auto& [name, step] : summary.at("step_s").items()) {
     SideClock side{.name = name,
                    .step = step,
                    .mass_step = seconds_at(tree, name + ".mass_scaling.step"),
+                   .named = node_at(tree, name + ".step") != nullptr,
                    .foreign = node_at(tree, name + ".solver") != nullptr,
                    .fixed = node_at(tree, name + ".static") != nullptr};
     side.largest = largest_step(summary, side, limits);
@@ -118,14 +119,16 @@ std::optional<Clock> with_all(const Clock& clock, double factor) {
 }
 
 std::vector<study::Setting> settings_of(const Clock& clock) {
-  const auto text = [](double seconds) { return fmt::format("{:.17g} s", seconds); };
   if (clock.sides.empty()) return {};
-  std::vector<study::Setting> settings{{"coupling.window", text(clock.window)}};
-  const bool foreign = std::ranges::any_of(clock.sides, [](const auto& side) { return side.foreign; });
-  if (clock.names_step && foreign) settings.push_back({"time.step", text(clock.window)});
+  const auto text = [](double seconds) { return fmt::format("{:.17g} s", seconds); };
+  std::vector<study::Setting> settings;
+  const bool tied = !clock.tied().empty();
+  if (tied) settings.push_back({"time.step", text(clock.window)});
+  if (!tied || clock.names_window) settings.push_back({"coupling.window", text(clock.window)});
   for (const auto& side : clock.sides) {
     if (side.fixed || side.foreign) continue;
-    settings.push_back({side.name + ".step", text(side.step)});
+    if (!clock.is_tied(side)) settings.push_back({side.name + ".step", text(side.step)});
+    if (clock.is_tied(side) && side.named) settings.push_back({side.name + ".step", "~"});
     if (side.mass_step > 0) settings.push_back({side.name + ".mass_scaling.step", text(side.mass_step)});
   }
   return settings;

@@ -22,6 +22,7 @@ struct SideClock {
   double largest = 0;  ///< s; the largest step within the limits it declared; 0: above one already
   double mass_step =
       0;  ///< s; that light nodes get mass for (`mass_scaling`), which goes with the step; 0: none
+  bool named = false;    ///< a step of its own stands in the scene
   bool foreign = false;  ///< a program of somebody else's: only its window can be changed
   bool fixed = false;    ///< a static structure, which has load steps in place of it
 };
@@ -30,8 +31,8 @@ struct SideClock {
 struct Clock {
   double window = 0;  ///< s
   std::vector<SideClock> sides;
-  bool coupled = false;     ///< by an interface: without one the window is nothing but the beat of output
-  bool names_step = false;  ///< `time.step`, which a foreign side may read
+  bool coupled = false;       ///< by an interface: without one the window is nothing but the beat of output
+  bool names_window = false;  ///< `coupling.window` stands in the scene
 
   /// Whether the side takes one step a window, so that neither can be varied alone.
   bool is_tied(const SideClock& side) const;
@@ -53,7 +54,8 @@ std::optional<Clock> with_window(const Clock& clock, double factor);
 /// Everything times `factor`.
 std::optional<Clock> with_all(const Clock& clock, double factor);
 
-/// The keys that give a scene this clock; none for that of no sides.
+/// The keys that give a scene this clock; none for that of no sides. A side that is tied to the window takes `time.step`, as
+/// implicit contact wants it.
 std::vector<study::Setting> settings_of(const Clock& clock);
 
 }  // namespace talus::accuracy

@@ -13,6 +13,7 @@
 
 #include "core/errors.hpp"
 #include "core/output/file.hpp"
+#include "core/output/last_words.hpp"
 #include "core/output/table.hpp"
 #include "core/program/log.hpp"
 #include "core/scene/reader.hpp"
@@ -87,7 +88,7 @@ class ErrorBars {
     }
     elapsed_ = std::chrono::duration<double>(Clock::now() - started).count();
     summary_["error_bars"] = told();
-    core::replace_file(request_.result / "summary.json", summary_.dump(2) + "\n");
+    core::replace_file(request_.result / "summary.json", core::text_of(summary_));
     return true;
   }
 

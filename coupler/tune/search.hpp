@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -26,7 +27,8 @@ struct EffectTried {
 struct Found {
   std::optional<std::string> best;  ///< id of the trial; nothing where none meets the goals
   std::vector<EffectTried> effects;
-  bool complete = true;  ///< false: the budget ended the search
+  std::set<std::string> lucky{};  ///< ids of trials that meet the goals, and with half of their steps do not
+  bool complete = true;           ///< false: the budget ended the search
 };
 
 /// The cheapest settings that meet the goals.
@@ -36,6 +38,9 @@ struct Found {
 ///    its error, and with it the step that is tried next; a family ends where the step that would do takes longer than the best so far.
 /// 2. **Moves** from the best: the step of a side, the window alone, mass scaling, an effect less, other slides, coarser meshes. What meets
 ///    the goals in less time is where the next moves start, until none is better.
+///
+/// What would be the best also has to meet the goals with half of its steps: an error that changes its sign on the way passes
+/// through nothing, and would meet them by luck.
 ///
 /// Never beyond a limit of stability: the programs refuse it before time 0, and such a trial is only listed.
 Found search(const core::SceneFile& scene, const std::vector<Goal>& goals, const std::vector<Truth>& truth,

@@ -38,13 +38,6 @@ Trial trial_of(const study::PlannedRun& run, const Candidate& candidate, const n
 
 }  // namespace
 
-double Trial::median() const {
-  auto sorted = seconds;
-  std::ranges::sort(sorted);
-  const std::size_t middle = sorted.size() / 2;
-  return sorted.size() % 2 ? sorted[middle] : (sorted[middle - 1] + sorted[middle]) / 2;
-}
-
 Trials::Trials(const Options& options)
     : options_(options),
       runner_(
@@ -101,9 +94,9 @@ const Trial* Trials::run(const Candidate& candidate, int repeats, double longest
   auto trial = run_scene(planned, {}, repeats, longest);
   if (!trial) return nullptr;
   if (is_own) trial->candidate = given_;
-  core::log_info(fmt::format(
-      "{}: {}", trial->name,
-      trial->good ? core::readable(trial->median(), "s") : trial->ending + ", " + trial->message));
+  core::log_info(
+      fmt::format("{}: {}", trial->name,
+                  trial->good ? core::readable(trial->least(), "s") : trial->ending + ", " + trial->message));
   return &trials_.insert_or_assign(id, std::move(*trial)).first->second;
 }
 

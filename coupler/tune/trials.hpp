@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <functional>
@@ -23,7 +24,8 @@ struct Trial {
   std::string ending, message;
   nlohmann::json summary;       ///< of a good one
   std::vector<double> seconds;  ///< wall time of the time loop, of each repetition
-  double median() const;
+  /// s; the least of all repetitions: other work on the machine only ever adds to it.
+  double least() const { return *std::ranges::min_element(seconds); }
 };
 
 /// Why a run was not made.

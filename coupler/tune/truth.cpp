@@ -13,7 +13,9 @@ namespace talus::tune {
 namespace {
 
 /// Halvings beyond which round-off and the machine's patience end every way.
-constexpr int most_halvings = 10;
+constexpr int most_halvings = 10, most_doublings = 2;
+/// A way whose first runs all fail does not go with the scene.
+constexpr int most_failed_halvings = 4;
 
 /// The runs of one way, finest first.
 using Samples = std::vector<study::Sample>;
@@ -57,13 +59,25 @@ class Way {
     const Trial* trial = trials_.run(finer);
     if (trial == nullptr) return false;
     const double step = std::ldexp(1, -halvings_++);
-    if (!trial->good)
-      return samples_.empty() || samples_[0].empty();  // too coarse to end, as long as none did
-    last_seconds_ = trial->median();
+    if (!trial->good) return samples_.empty() && halvings_ < most_failed_halvings;
+    last_seconds_ = trial->least();
     samples_.resize(goals_.size());
     for (std::size_t g = 0; g < goals_.size(); ++g)
       samples_[g].insert(samples_[g].begin(),
                          {.step = step, .values = {{}, {value_of(goals_[g], trial->summary)}}});
+    return true;
+  }
+  /// Once twice the steps, then four times: what a budget allows that has no room for a halving.
+  bool go_back() {
+    const auto clock = accuracy::with_all(start_.clock, std::ldexp(1, doublings_ + 1));
+    if (!clock || doublings_ == most_doublings) return false;
+    Candidate coarser = start_;
+    coarser.clock = *clock;
+    const Trial* trial = trials_.run(coarser);
+    if (trial == nullptr || !trial->good || samples_.empty()) return false;
+    const double step = std::ldexp(1, ++doublings_);
+    for (std::size_t g = 0; g < goals_.size(); ++g)
+      samples_[g].push_back({.step = step, .values = {{}, {value_of(goals_[g], trial->summary)}}});
     return true;
   }
   bool is_known() const { return !samples_.empty() && samples_[0].size() >= 3; }
@@ -74,7 +88,7 @@ class Way {
   Candidate start_;
   Trials& trials_;
   std::vector<Samples> samples_;  ///< of each goal
-  int halvings_ = 0;
+  int halvings_ = 0, doublings_ = 0;
   double last_seconds_ = 0;
 };
 
@@ -85,6 +99,8 @@ void walk(Way& way, const std::vector<Goal>& goals, const std::function<bool(std
     bool enough = true;
     for (std::size_t g = 0; g < goals.size(); ++g) enough &= goals[g].is_energy() || is_enough(g);
     if (enough) return;
+  }
+  while (!way.is_known() && way.go_back()) {
   }
 }
 

@@ -49,6 +49,12 @@ struct Tuned {
   core::ExitCode code;
 };
 
+/// One search for the tests that look at it from several sides.
+const Tuned& one_search() {
+  static const Tuned tuned("  particles: {factor: 0.3, order: 1}\n");
+  return tuned;
+}
+
 std::string error_of(const std::vector<std::string>& goals, const std::string& model = "",
                      double budget = 5) {
   const FakeScene fake(first_order + model);
@@ -92,7 +98,8 @@ TEST_CASE("goals are read, and what is none is told with what is expected") {
 
 TEST_CASE("the longest step that meets a goal is found from the order, and its result is within the goal") {
   // 0.3 h of 3 within 2 %, less what the truth is known to: h just below 0.2 ms, and a time of 3e-3/0.2e-3.
-  const Tuned tuned("  particles: {factor: 0.3, order: 1}\n  cost: {structure: 0.001, particles: 0.001}\n");
+  const Tuned tuned(
+      "  friction: 1\n  particles: {factor: 0.3, order: 1}\n  cost: {structure: 0.001, particles: 0.001}\n");
   REQUIRE(tuned.code == core::ExitCode::success);
   const json best = tuned.trial("best");
   CHECK(best.at("errors")[0].get<double>() <= 0.02);
@@ -105,10 +112,22 @@ TEST_CASE("the longest step that meets a goal is found from the order, and its r
 
 TEST_CASE("each side gets the step that its error asks for") {
   // The structure's error is nothing and its steps are dear; the particles' is all there is, and theirs are cheap.
-  const Tuned tuned("  particles: {factor: 0.3, order: 2}\n  cost: {structure: 0.01, particles: 0.0001}\n");
+  const Tuned tuned(
+      "  friction: 1\n  particles: {factor: 0.3, order: 2}\n  cost: {structure: 0.01, particles: 0.0001}\n");
   REQUIRE(tuned.code == core::ExitCode::success);
   // Alike, both would take the particles' step: 0.3 h^2 of 10 (implicit contact) within 0.06 asks for 1.4 ms: 7 s.
   CHECK(tuned.best_seconds() <= 1.05 * (0.01 + 2.4e-4) / 1.41e-3);
+}
+
+TEST_CASE("settings that meet a goal only because two errors cancel there are not taken") {
+  // 0.3 h - 0.15 h^2 is nothing at 2 ms, and 0.15 of 3 at 1 ms.
+  const Tuned tuned(
+      "  friction: 1\n  structure: {factor: 0.3, order: 1}\n  particles: {factor: -0.15, order: 2}\n");
+  REQUIRE(tuned.code == core::ExitCode::success);
+  // At 2 ms it would be 1.5 s; whatever meets the goal with half of its steps too takes twice as long at least.
+  CHECK(tuned.best_seconds() >= 3);
+  const json all = tuned.result();
+  CHECK(std::ranges::any_of(all.at("trials"), [](const json& one) { return one.value("lucky", false); }));
 }
 
 TEST_CASE("no limit of stability is passed") {
@@ -145,11 +164,11 @@ TEST_CASE("several goals are met together, the energy's too") {
 }
 
 TEST_CASE("the truth has two ways, and is known to no less than what they differ") {
-  const Tuned tuned("  particles: {factor: 0.3, order: 1}\n");
+  const Tuned& tuned = one_search();
   const json goal = tuned.result().at("goals").at(0);
   CHECK(goal.at("truth").get<double>() == Approx(3).epsilon(1e-9));
   CHECK(goal.at("order").get<double>() == Approx(1).epsilon(1e-6));
-  CHECK(goal.at("second_way") == "implicit contact");
+  CHECK((goal.at("way") == "implicit contact" || goal.at("second_way") == "implicit contact"));
   CHECK(goal.at("bar").get<double>() >= goal.at("differs").get<double>());
 }
 
@@ -161,7 +180,7 @@ TEST_CASE("where no order is seen the goal cannot be told, and nothing is recomm
 }
 
 TEST_CASE("a search that is called again runs nothing that is there") {
-  const Tuned tuned("  particles: {factor: 0.3, order: 1}\n");
+  const Tuned& tuned = one_search();
   const auto written = std::filesystem::last_write_time(tuned.fake.folder / "out/runs");
   const json before = tuned.result();
   CHECK(tune::tune(tuned.request({"2 % of peak net.z"})) == core::ExitCode::success);
@@ -170,7 +189,7 @@ TEST_CASE("a search that is called again runs nothing that is there") {
 }
 
 TEST_CASE("the tuned scene is the one that was run, and neighbours say how far it holds") {
-  const Tuned tuned("  particles: {factor: 0.3, order: 1}\n");
+  const Tuned& tuned = one_search();
   tuned.fake.folder.add("out/again.yaml", tuned.overlay());
   const std::string command = std::string(TALUS_FAKE_PROGRAM) + " run " +
                               (tuned.fake.folder / "out/again.yaml").string() + " --out " +
