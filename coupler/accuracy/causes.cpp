@@ -26,8 +26,8 @@ Settings settings_of(const std::optional<Clock>& clock) {
   return clock ? Settings(accuracy::settings_of(*clock)) : std::nullopt;
 }
 
-/// Central differences and the generalised-alpha method are of second order; forces that depend on velocities or jump
-/// (dashpots and friction of contacts, bulk damping of elements, brakes, what breaks) are of first.
+/// Central differences and the generalised-alpha method are of second order; forces that depend on velocities
+/// or jump (dashpots and friction of contacts, bulk damping of elements, brakes, what breaks) are of first.
 Orders orders_of_structure(const core::SceneNode& tree) {
   static const std::regex first_order(
       R"(^structure\..*\b(friction|stiffness|brake|breaks|elastic_plastic_cable|distance)\b.*)");

@@ -22,8 +22,8 @@ bool is_whole(double ratio) {
   return std::abs(ratio - std::round(ratio)) <= near_one * ratio && ratio > 0.5;
 }
 
-/// The largest step that keeps every limit; 0 where one is exceeded already. Those of stability move with the step where
-/// mass is scaled for it.
+/// The largest step that keeps every limit; 0 where one is exceeded already. Those of stability move with the
+/// step where mass is scaled for it.
 double largest_step(const json& summary, const SideClock& side, Limits limits) {
   double largest = HUGE_VAL;
   for (const auto& limit : summary.value("limits", json::array())) {
@@ -112,7 +112,7 @@ std::optional<Clock> with_all(const Clock& clock, double factor) {
   changed.window *= factor;
   for (auto& side : changed.sides) {
     const auto other = scaled(side, factor);
-    if (!other) return std::nullopt;
+    if (!other || (side.foreign && !clock.is_tied(side))) return std::nullopt;
     side = *other;
   }
   return changed;

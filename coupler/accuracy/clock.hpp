@@ -45,17 +45,17 @@ enum class Limits { all, stability };
 /// The clock of a run that ended. @param summary of the run; it says windows, steps and limits
 Clock clock_of(const core::SceneFile& scene, const nlohmann::json& summary, Limits limits = Limits::all);
 
-/// The clock with the step of this side, in the same windows, times `factor`. Nothing where that does not divide the window,
-/// would be above a limit of the side, or cannot be written into the scene.
+/// The clock with the step of this side, in the same windows, times `factor`. Nothing where that does not
+/// divide the window, would be above a limit of the side, or cannot be written into the scene.
 std::optional<Clock> with_step(const Clock& clock, const std::string& side, double factor);
-/// The clock with the window and all steps that are tied to it times `factor`; other steps stay. Nothing where that
-/// cannot be.
+/// The clock with the window and all steps that are tied to it times `factor`; other steps stay. Nothing
+/// where that cannot be.
 std::optional<Clock> with_window(const Clock& clock, double factor);
 /// Everything times `factor`.
 std::optional<Clock> with_all(const Clock& clock, double factor);
 
-/// The keys that give a scene this clock; none for that of no sides. A side that is tied to the window takes `time.step`, as
-/// implicit contact wants it.
+/// The keys that give a scene this clock; none for that of no sides. A side that is tied to the window takes
+/// `time.step`, as implicit contact wants it.
 std::vector<study::Setting> settings_of(const Clock& clock);
 
 }  // namespace talus::accuracy

@@ -14,16 +14,18 @@ struct ErrorBarsRequest {
   int jobs = 1;                   ///< companions side by side
 };
 
-/// Runs the companions of a run (causes.hpp), each in a folder of its own below `result`/error_bars, and adds what they say
-/// to its summary.json as `error_bars`:
+/// Runs the companions of a run (causes.hpp), each in a folder of its own below `result`/error_bars, and adds
+/// what they say to its summary.json as `error_bars`:
 ///
 ///     {"run_seconds", "companions_seconds": summed, "elapsed_seconds": as they ran side by side,
-///      "companions": [{"cause", "size", "changes": {key: value}, "ending", "message", "seconds"}],
-///      "peaks": {column: {"value", "kind": "bar" | "range" | "unknown" | "round-off", "below", "above", "low", "high",
-///                         "relative", "causes": {name: {"kind", "below", "above", "order", "expected", "note"}}}}}
+///      "companions": [{"cause", "what", "size", "changes": {key: value}, "good", "message", "seconds"}],
+///      "peaks": {column: {"value", "kind": "bar" | "range" | "unknown" | "round-off",
+///                         "below", "above", "low", "high", "relative", "causes": {name: cause}}}}
+///     cause: {"kind", "below", "above", "order", "expected", "note"}
 ///
-/// Coarser companions come first, since two of them cost less than the run. One above a limit of a side, or that fails, is
-/// made up for by finer ones; a third run is spared where two differ by less than `worth_a_third` of every peak.
+/// Coarser companions come first, since two of them cost less than the run. One above a limit of a side, or
+/// that fails, is made up for by finer ones; a third run is spared where two differ by less than
+/// `worth_a_third` of every peak.
 /// @returns nothing left to do: false where the user asked to stop; the summary is then as it was
 bool add_error_bars(const ErrorBarsRequest& request);
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-/// How far a number of a run may be from its limit at a step (or window, or mesh) of zero, told from companions of the
-/// run at other steps.
+/// How far a number of a run may be from its limit at a step (or window, or mesh) of zero, told from
+/// companions of the run at other steps.
 namespace talus::accuracy {
 
 /// A number at a step; the step over that of the run, so that the run itself has 1.
@@ -33,8 +33,8 @@ struct Estimate {
   std::string note{};             ///< why it is no bar, or what was not checked
 };
 
-/// Roache's factors of safety on Richardson's error: of three runs that show the expected order, and of what shows none
-/// (P. J. Roache, J. Fluids Eng. 116, 1994, section 4).
+/// Roache's factors of safety on Richardson's error: of three runs that show the expected order, and of what
+/// shows none (P. J. Roache, J. Fluids Eng. 116, 1994, section 4).
 inline constexpr double safety = 1.25, safety_without_order = 3;
 /// Of the value: changes below it are round-off and the tolerances of iterations; they show no order.
 inline constexpr double unresolved = 1e-6;
@@ -45,16 +45,17 @@ inline constexpr double unresolved = 1e-6;
 ///
 ///     q0 = q1 + (q1 - q2) / ((h2/h1)^p - 1)        bar = safety |q(1) - q0|
 ///
-/// where p is the observed order, at most the highest expected one. With two sizes the order is the lowest expected
-/// one and the factor that of an order that was not checked. Where the order is not expected: the range of all values and
-/// safety_without_order times the change between the two finest on both sides of the finest.
-/// Of more than three samples the three finest count. Test: "bars contain the truth where the error is C h^p".
+/// where p is the observed order, at most the highest expected one. With two sizes the order is the lowest
+/// expected one and the factor that of an order that was not checked. Where the order is not expected: the
+/// range of all values and safety_without_order times the change between the two finest on both sides of the
+/// finest. Of more than three samples the three finest count. Test: "bars contain the truth where the error
+/// is C h^p".
 /// @pre a sample of size 1 is among them, and at most two are finer
 Estimate estimate(std::vector<Sample> samples, const Orders& expected);
 
-/// How far the largest of a curve may lie above the largest of its rows: by the parabola through that row and its two
-/// neighbours f- f0 f+, whose vertex is at most |f- - 2 f0 + f+|/8 above f0, as f0 is the largest of the three. 0 where
-/// the largest is the first or the last row. @param values of the rows, evenly spaced
+/// How far the largest of a curve may lie above the largest of its rows: by the parabola through that row and
+/// its two neighbours f- f0 f+, whose vertex is at most |f- - 2 f0 + f+|/8 above f0, as f0 is the largest of
+/// the three. 0 where the largest is the first or the last row. @param values of the rows, evenly spaced
 double between_rows(const std::vector<double>& values);
 
 }  // namespace talus::accuracy

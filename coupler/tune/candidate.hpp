@@ -18,8 +18,8 @@ struct Change {
   bool drops_an_effect = false;
 };
 
-/// Settings that may be tried: steps and windows, and any number of choices. That of no sides and no choices is the scene as
-/// given.
+/// Settings that may be tried: steps and windows, and any number of choices. That of no sides and no choices
+/// is the scene as given.
 struct Candidate {
   accuracy::Clock clock;
   std::vector<Change> changes;

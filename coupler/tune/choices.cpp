@@ -83,6 +83,22 @@ void add_slides(const core::SceneNode& tree, std::vector<Change>& changes) {
   }
 }
 
+void add_wrinkles(const core::SceneNode& tree, std::vector<Change>& changes) {
+  const core::SceneNode* parts = node_at(tree, "structure.parts");
+  if (parts == nullptr) return;
+  for (const auto& part : parts->entries) {
+    const core::SceneNode* direction = node_at(part.value, "membrane.tension_field.wrinkle_direction");
+    if (node_at(part.value, "membrane.tension_field") == nullptr) continue;
+    const bool iterated = direction == nullptr || direction->scalar == "iterated";
+    const std::string other = iterated ? "principal" : "iterated";
+    changes.push_back(
+        {.group = "wrinkles of " + part.key,
+         .name = other + " wrinkles of " + part.key,
+         .settings = {{"structure.parts." + part.key + ".membrane.tension_field.wrinkle_direction", other}},
+         .reason = "another way to the same wrinkles"});
+  }
+}
+
 void add_meshes(const core::SceneNode& tree, std::vector<Change>& changes) {
   static const std::regex mesh(
       R"((structure\.parts|particles\.rocks)\.([^.]+)\.[^.]+\.(element_size|deviation|spacing))");
@@ -123,6 +139,7 @@ std::vector<Change> other_models(const core::SceneFile& scene) {
   const core::SceneNode tree = accuracy::effective_tree(scene);
   std::vector<Change> changes;
   add_slides(tree, changes);
+  add_wrinkles(tree, changes);
   add_meshes(tree, changes);
   return changes;
 }

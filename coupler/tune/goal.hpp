@@ -18,8 +18,8 @@ struct Goal {
 /// @throws ConfigError with what is wrong and what is expected
 Goal parse_goal(const std::string& text);
 
-/// What the goal is about in a result: the peak with its sign, or the largest error of the energy balance over the impact's
-/// energy, whose truth is 0.
+/// What the goal is about in a result: the peak with its sign, or the largest error of the energy balance
+/// over the impact's energy, whose truth is 0.
 double value_of(const Goal& goal, const nlohmann::json& summary);
 
 /// @throws ConfigError where a goal's column is none of the scene's: lists those there are

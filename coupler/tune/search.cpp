@@ -59,7 +59,8 @@ class Search {
   }
   double best_seconds() const { return best_ ? best_->least() : HUGE_VAL; }
 
-  /// Makes it the best where it meets the goals in less time, each timed some times where one timing says little.
+  /// Makes it the best where it meets the goals in less time, each timed some times where one timing says
+  /// little.
   bool consider(const Trial& trial) {
     if (!meets(goals_, truth_, trial) || trial.least() > cannot_win * best_seconds() ||
         found_.lucky.contains(trial.id))
@@ -128,7 +129,8 @@ class Search {
     }
   }
 
-  /// By the order that the last two runs show, between what failed and what met the goals; else half or twice.
+  /// By the order that the last two runs show, between what failed and what met the goals; else half or
+  /// twice.
   std::optional<double> next_factor(const std::vector<Step>& ran, double met, double failed) const {
     if (met > 0 && failed / met < near_steps * near_steps) return std::nullopt;
     double wanted = met > 0 ? std::min(2 * met, std::sqrt(met * std::min(failed, 4 * met))) : failed / 2;
@@ -205,7 +207,8 @@ class Search {
     }
   }
 
-  /// Effects that explain proposes, one after the other; each stays out where the goals are met and no time is lost.
+  /// Effects that explain proposes, one after the other; each stays out where the goals are met and no time
+  /// is lost.
   void drop_effects() {
     for (const auto& change : effects_that_may_go(scene_, trials_.result_of(*best_))) {
       const Trial before = *best_;

@@ -19,8 +19,8 @@ namespace talus::tune {
 struct EffectTried {
   std::string key;
   bool dropped = false;
-  std::vector<double>
-      changes{};  ///< of each goal's number, of the value with it; empty where the scene without it did not run
+  /// Of each goal's number, of the value with it; empty where the scene without it did not run.
+  std::vector<double> changes{};
   std::string note{};
 };
 
@@ -33,14 +33,16 @@ struct Found {
 
 /// The cheapest settings that meet the goals.
 ///
-/// 1. **Families**: the scene's own methods, and each other one. Of each the longest step (all steps and windows together) that meets the
-///    goals: from the longest that limits of stability allow, so that cheap runs come first. Two runs of a family tell the order of
-///    its error, and with it the step that is tried next; a family ends where the step that would do takes longer than the best so far.
-/// 2. **Moves** from the best: the step of a side, the window alone, mass scaling, an effect less, other slides, coarser meshes. What meets
-///    the goals in less time is where the next moves start, until none is better.
+/// 1. **Families**: the scene's own methods, and each other one. Of each the longest step (all steps and
+///    windows together) that meets the goals: from the longest that limits of stability allow, so that cheap
+///    runs come first. Two runs of a family tell the order of its error, and with it the step that is tried
+///    next; a family ends where the step that would do takes longer than the best so far.
+/// 2. **Effects** that explain proposes to leave out of the best.
+/// 3. **Moves** from the best: longer steps of a side, the window alone, mass scaling, other slides, coarser
+///    meshes. What meets the goals in less time is where the next moves start, until none is better.
 ///
-/// What would be the best also has to meet the goals with half of its steps: an error that changes its sign on the way passes
-/// through nothing, and would meet them by luck.
+/// What would be the best also has to meet the goals with half of its steps: an error that changes its sign
+/// on the way passes through nothing, and would meet them by luck.
 ///
 /// Never beyond a limit of stability: the programs refuse it before time 0, and such a trial is only listed.
 Found search(const core::SceneFile& scene, const std::vector<Goal>& goals, const std::vector<Truth>& truth,

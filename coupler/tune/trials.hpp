@@ -31,8 +31,8 @@ struct Trial {
 /// Why a run was not made.
 enum class Refusal { stopped, budget };
 
-/// Runs settings over a scene, each in a folder of its own that is complete or absent (study::Runner), so that another call goes
-/// on from what is there. What is there costs nothing.
+/// Runs settings over a scene, each in a folder of its own that is complete or absent (study::Runner), so
+/// that another call goes on from what is there. What is there costs nothing.
 class Trials {
  public:
   struct Options {

@@ -25,15 +25,16 @@ struct Truth {
 /// A goal must be known this many times better than it asks to tell settings apart.
 inline constexpr double sharper_than_goal = 4;
 
-/// The truth of each goal by two ways that have nothing in common but the physics: the scene as given with all its steps and
-/// windows halved again and again, and the same with another contact, scheme or method of the structure.
+/// The truth of each goal by two ways that have nothing in common but the physics: the scene as given with
+/// all its steps and windows halved again and again, and the same with another contact, scheme or method of
+/// the structure.
 ///
-/// Of each way the three finest runs tell the order and Richardson's limit (study::observed_order, extrapolate); it is known to as much as
-/// that moved the finest run, where the order fits between 1 and 2, else to three times the last change. The truth is that of
-/// the way that knows it better, known to no less than what the two differ. Halving ends where every goal is known sharper_than_goal times better
-/// than it asks, or the share of the budget is spent; where that is before
-/// three runs are there, twice and four times the step serve.
-/// The truth of an energy error is 0, known exactly.
+/// Of each way the three finest runs tell the order and Richardson's limit (study::observed_order,
+/// extrapolate); it is known to as much as that moved the finest run, where the order fits between 1 and 2,
+/// else to three times the last change. The truth is that of the way that knows it better, known to no less
+/// than what the two differ. Halving ends where every goal is known sharper_than_goal times better than it
+/// asks, or the share of the budget is spent; where that is before three runs are there, twice and four times
+/// the step serve. The truth of an energy error is 0, known exactly.
 /// @returns nothing where not even three runs could be made
 std::optional<std::vector<Truth>> find_truth(const std::vector<Goal>& goals, const Candidate& given,
                                              const std::vector<Change>& other_ways, Trials& trials);

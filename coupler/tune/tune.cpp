@@ -79,6 +79,9 @@ class Tuning {
     check_columns(goals_, own->summary);
     given_ = Candidate{.clock = accuracy::clock_of(scene_, own->summary, accuracy::Limits::stability),
                        .changes = {}};
+    if (std::ranges::all_of(given_.clock.sides, &accuracy::SideClock::fixed))
+      throw core::ConfigError(request_.scene.string() +
+                              ": a static structure has no step or method to choose");
     trials_.set_given(given_);
     trials_.reserve(0.5);
     const bool only_energy = std::ranges::all_of(goals_, &Goal::is_energy);
@@ -103,8 +106,8 @@ class Tuning {
   }
 
  private:
-  /// The scene as it is says what its peaks, steps and limits are. It is run through the same door as all others, with no
-  /// settings at all.
+  /// The scene as it is says what its peaks, steps and limits are. It is run through the same door as all
+  /// others, with no settings at all.
   const Trial* first_run() {
     const Trial* own = trials_.run(Candidate{});
     if (own != nullptr && !own->good)

@@ -18,9 +18,10 @@ struct TuneRequest {
   int threads = 1;
 };
 
-/// Finds the cheapest settings of a scene that meet its goals and writes <scene>_tuned.yaml, tune.json and index.html.
-/// @return regression where nothing meets them or the truth is not known well enough; interrupted where a stop was requested: the runs done
-/// so far are kept, and the next call goes on from there
+/// Finds the cheapest settings of a scene that meet its goals and writes <scene>_tuned.yaml, tune.json and
+/// index.html.
+/// @return regression where nothing meets them or the truth is not known well enough; interrupted where a stop
+/// was requested: the runs done so far are kept, and the next call goes on from there
 core::ExitCode tune(const TuneRequest& request);
 
 }  // namespace talus::tune

@@ -31,7 +31,8 @@ model:
 )");
   const json bars = fake.bars();
   const json& causes = peak(bars).at("causes");
-  // The structure's 4 ms: 0.001 16; the particles' 2 ms: 0.01 2; the window's 8 ms: 0.0005 64; with the factor of safety.
+  // The structure's 4 ms: 0.001 16; the particles' 2 ms: 0.01 2; the window's 8 ms: 0.0005 64; with the
+  // factor of safety.
   CHECK(causes.at("step of the particles").at("above").get<double>() == Approx(1.25 * 0.02).epsilon(1e-6));
   CHECK(causes.at("window").at("above").get<double>() == Approx(1.25 * 0.032).epsilon(1e-6));
   CHECK(causes.at("window").at("order").get<double>() == Approx(2).epsilon(1e-6));

@@ -9,12 +9,14 @@
 #include "core/units/units.hpp"
 #include "coupler/accuracy/scene_tree.hpp"
 
-/// Stands in for talus: "computes" a coupled scene whose errors are known. Called as `fake_run run SCENE --out DIR ...`.
+/// Stands in for talus: "computes" a coupled scene whose errors are known. Called as `fake_run run SCENE
+/// --out DIR ...`.
 ///
-/// The peak of net.z is 3 plus, for each side, the window and the mesh, factor (size/1 ms or 1 m)^order; the constants stand
-/// in the scene's section `model`. A strong scheme divides the window's error by a hundred and takes three times as long; implicit
-/// contact divides the particles' by ten at 1.2 times their cost. Friction of contacts[0] changes the peak by model.friction
-/// and shows in its line of the ledger. Each run adds a line to <folder of the scene it extends>/order.txt.
+/// The peak of net.z is 3 plus, for each side, the window and the mesh, factor (size/1 ms or 1 m)^order; the
+/// constants stand in the scene's section `model`. A strong scheme divides the window's error by a hundred
+/// and takes three times as long; implicit contact divides the particles' by ten at 1.2 times their cost.
+/// Friction of contacts[0] changes the peak by model.friction and shows in its line of the ledger. Each run
+/// adds a line to <folder of the scene it extends>/order.txt.
 namespace {
 
 using nlohmann::json;

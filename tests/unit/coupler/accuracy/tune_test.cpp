@@ -14,12 +14,16 @@ using test::FakeScene;
 
 namespace {
 
-/// Of which the error of the peak is 0.3 (step/1 ms) of 3, and a step costs 1e-3 s on each side, the particles' twice as much.
+/// Of which the error of the peak is 0.3 (step/1 ms) of 3, and a step costs 1e-3 s on each side, the
+/// particles' twice as much.
 const char* const first_order = R"(
 title: A run whose errors are known
 time: {end: 1 s, step: 1 ms}
 structure: {}
-particles: {contacts: [{between: [a, b], friction: {coefficient: 0.5}}], spheres: {rock: {at: [0, 0, 1], velocity: [0, 0, -1], radius: 1, material: stone}}, materials: {stone: {density: 1}}}
+particles:
+  contacts: [{between: [a, b], friction: {coefficient: 0.5}}]
+  materials: {stone: {density: 1}}
+  spheres: {rock: {at: [0, 0, 1], velocity: [0, 0, -1], radius: 1, material: stone}}
 interface: {}
 coupling: {}
 model:
@@ -111,11 +115,13 @@ TEST_CASE("the longest step that meets a goal is found from the order, and its r
 }
 
 TEST_CASE("each side gets the step that its error asks for") {
-  // The structure's error is nothing and its steps are dear; the particles' is all there is, and theirs are cheap.
+  // The structure's error is nothing and its steps are dear; the particles' is all there is, and theirs are
+  // cheap.
   const Tuned tuned(
       "  friction: 1\n  particles: {factor: 0.3, order: 2}\n  cost: {structure: 0.01, particles: 0.0001}\n");
   REQUIRE(tuned.code == core::ExitCode::success);
-  // Alike, both would take the particles' step: 0.3 h^2 of 10 (implicit contact) within 0.06 asks for 1.4 ms: 7 s.
+  // Alike, both would take the particles' step: 0.3 h^2 of 10 (implicit contact) within 0.06 asks for 1.4 ms:
+  // 7 s.
   CHECK(tuned.best_seconds() <= 1.05 * (0.01 + 2.4e-4) / 1.41e-3);
 }
 
@@ -124,7 +130,8 @@ TEST_CASE("settings that meet a goal only because two errors cancel there are no
   const Tuned tuned(
       "  friction: 1\n  structure: {factor: 0.3, order: 1}\n  particles: {factor: -0.15, order: 2}\n");
   REQUIRE(tuned.code == core::ExitCode::success);
-  // At 2 ms it would be 1.5 s; whatever meets the goal with half of its steps too takes twice as long at least.
+  // At 2 ms it would be 1.5 s; whatever meets the goal with half of its steps too takes twice as long at
+  // least.
   CHECK(tuned.best_seconds() >= 3);
   const json all = tuned.result();
   CHECK(std::ranges::any_of(all.at("trials"), [](const json& one) { return one.value("lucky", false); }));
