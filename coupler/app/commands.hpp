@@ -30,6 +30,7 @@ void add_regress(CLI::App& app, Chosen& chosen);
 void add_schema(CLI::App& app, Chosen& chosen);
 void add_report(CLI::App& app, Chosen& chosen);
 void add_study(CLI::App& app, Chosen& chosen);
+void add_tune(CLI::App& app, Chosen& chosen);
 void add_barrier(CLI::App& app, Chosen& chosen);
 void add_mesh(CLI::App& app, Chosen& chosen);
 void add_homogenise(CLI::App& app, Chosen& chosen);

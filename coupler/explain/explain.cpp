@@ -79,11 +79,7 @@ std::string listed_effects(const nlohmann::json& summary) {
 }  // namespace
 
 std::string explanation(const ResultFacts& facts) {
-  std::vector<Finding> findings;
-  for (const Rule rule : rules()) {
-    const auto found = rule(facts);
-    findings.insert(findings.end(), found.begin(), found.end());
-  }
+  const auto findings = findings_of(facts);
   std::string text = listed_effects(facts.summary) + time_shares(facts.summary) + energy_shares(facts) +
                      listed("may be left out", findings, Finding::Kind::may_be_left_out) +
                      listed("seems to be missing", findings, Finding::Kind::seems_missing);

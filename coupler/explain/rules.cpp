@@ -33,7 +33,8 @@ std::vector<Finding> effects_that_do_nothing(const ResultFacts& facts) {
     findings.push_back(
         {may_be_left_out,
          fmt::format("{}: {} stays at {:.2g} of the impact; without it no peak changes by more than {:g} %",
-                     in_the_scene(effect), effect.ledger_line, *share, 100 * promised)});
+                     in_the_scene(effect), effect.ledger_line, *share, 100 * promised),
+         effect.key});
   }
   return findings;
 }
@@ -43,8 +44,10 @@ std::vector<Finding> slackness_that_never_shows(const ResultFacts& facts) {
   for (const auto& part : facts.parts) {
     const EffectFacts* effect = facts.against("compression of " + part.name);
     if (!effect || !effect->present || part.gave_way.value_or(true) || part.frames < telling_frames) continue;
-    findings.push_back({may_be_left_out, fmt::format("{}: `{}` stays taut in all {} frames",
-                                                     in_the_scene(*effect), part.name, part.frames)});
+    findings.push_back(
+        {may_be_left_out,
+         fmt::format("{}: `{}` stays taut in all {} frames", in_the_scene(*effect), part.name, part.frames),
+         effect->key});
   }
   return findings;
 }
@@ -115,6 +118,15 @@ const std::vector<Rule>& rules() {
                                      limits_that_an_effect_lifts,    energy_made_by_the_coupling,
                                      energy_that_does_not_close};
   return all;
+}
+
+std::vector<Finding> findings_of(const ResultFacts& facts) {
+  std::vector<Finding> findings;
+  for (const Rule rule : rules()) {
+    const auto found = rule(facts);
+    findings.insert(findings.end(), found.begin(), found.end());
+  }
+  return findings;
 }
 
 }  // namespace talus::explain

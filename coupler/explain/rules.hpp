@@ -26,6 +26,7 @@ inline constexpr std::int64_t telling_frames = 20;
 struct Finding {
   enum class Kind { may_be_left_out, seems_missing } kind;
   std::string text;
+  std::string key = {};  ///< of the scene, that names what may be left out; empty: none alone does
 };
 
 /// A rule looks at one thing only. Several findings where it applies to several parts.
@@ -48,5 +49,7 @@ std::vector<Finding> energy_that_does_not_close(const ResultFacts& facts);
 
 /// All of them, in this order.
 const std::vector<Rule>& rules();
+/// What all rules find.
+std::vector<Finding> findings_of(const ResultFacts& facts);
 
 }  // namespace talus::explain

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <variant>
@@ -112,11 +111,8 @@ std::filesystem::path folder_of(const RunRequest& request) {
 }
 
 RunIdentity identity_of(const PreparedRun& run) {
-  static constexpr std::array schemes{"serial_explicit", "serial_explicit", "parallel_explicit",
-                                      "serial_implicit", "parallel_implicit"};
-  static_assert(schemes.size() == std::variant_size_v<SchemeScene>);
   RunIdentity identity{.scene_hash = run.file.hash(),
-                       .scheme = schemes[run.scene.coupling.scheme.index()],
+                       .scheme = name_of(run.scene.coupling.scheme),
                        .programs = {{"program of the coupler", "talus " + core::version()}},
                        .scene = flattened(run.file)};
   for (const Peer* peer : run.session->peers())

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/program/log.hpp"
+#include "core/steps.hpp"
 #include "core/units/units.hpp"
 
 namespace talus::coupler {
@@ -41,6 +42,11 @@ json to_json(const Interface& interface) {
           {"boundary_nodes", interface.boundary.node_count()},
           {"largest_distance_m", interface.tie.largest_distance},
           {"tolerance_m", interface.tie.tolerance}};
+}
+
+/// s; that a side really takes.
+double step_of(const Declaration& side, double window) {
+  return side.step > 0 ? core::equal_steps(window, std::min(side.step, window)).length : window;
 }
 
 /// Where windows were not all of one length.
@@ -90,11 +96,13 @@ std::string words_about_strength(const json& tables) {
 
 void add_facts(json& summary, const PreparedRun& run) {
   summary["window_s"] = run.window_length();
+  if (run.interface) summary["scheme"] = name_of(run.scene.coupling.scheme);
   summary["limited_by"] = tightest_name(run.limits);
   summary["limits"] = summary["effects"] = json::array();
   for (const auto& limit : run.limits) summary["limits"].push_back(to_json(limit));
   for (Peer* peer : run.session->peers()) {
     summary["participants"][name_of(peer->role())] = peer->declaration().program;
+    summary["step_s"][name_of(peer->role())] = step_of(peer->declaration(), run.window_length());
     for (const auto& effect : peer->declaration().effects)
       summary["effects"].push_back(to_json(effect, name_of(peer->role())));
   }

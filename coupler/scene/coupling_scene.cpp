@@ -1,5 +1,7 @@
 #include "coupler/scene/coupling_scene.hpp"
 
+#include <array>
+
 namespace talus::coupler {
 namespace {
 
@@ -101,6 +103,13 @@ void describe(core::Fields& fields, CouplingScene& coupling) {
                  {"parallel_explicit", "both at the same time, once a window"},
                  {"serial_implicit", "one after the other, repeated until both agree"},
                  {"parallel_implicit", "both at the same time, repeated until they agree"}});
+}
+
+const char* name_of(const SchemeScene& scheme) {
+  static constexpr std::array names{"serial_explicit", "serial_explicit", "parallel_explicit",
+                                    "serial_implicit", "parallel_implicit"};
+  static_assert(names.size() == std::variant_size_v<SchemeScene>);
+  return names[scheme.index()];
 }
 
 const ImplicitScene* CouplingScene::implicit() const {

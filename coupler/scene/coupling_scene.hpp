@@ -65,6 +65,8 @@ void describe(core::Fields& fields, ParallelImplicitScene& scheme);
 
 using SchemeScene = std::variant<std::monostate, SerialExplicitScene, ParallelExplicitScene,
                                  SerialImplicitScene, ParallelImplicitScene>;
+/// The key of the scheme: "serial_explicit" where none is named.
+const char* name_of(const SchemeScene& scheme);
 
 struct CouplingScene {
   std::optional<double> window;          ///< s; absent: time.step

@@ -104,6 +104,10 @@ json Runner::record_to_continue(const PlannedRun& run) {
           {"load_before", json::array()}};
 }
 
+bool Runner::is_complete(int repeats, const PlannedRun& run) {
+  return given_up_.contains(run.id) || is_done(record_to_continue(run), repeats, run);
+}
+
 bool Runner::run_up_to(int repeats, const PlannedRun& run) {
   if (given_up_.contains(run.id)) return true;
   json record = record_to_continue(run);

@@ -46,6 +46,10 @@ class Runner {
   /// reference, whose time nobody reads) or has failed for good.
   /// @returns false where a stop was requested meanwhile
   bool run_up_to(int repeats, const PlannedRun& run);
+  /// Whether run_up_to() would run nothing.
+  bool is_complete(int repeats, const PlannedRun& run);
+  /// s of wall time that a run may take from here on.
+  void give_up_after(double seconds) { options_.time_limit = seconds; }
 
  private:
   bool is_done(const nlohmann::json& record, int repeats, const PlannedRun& run) const;

@@ -54,7 +54,7 @@ struct Part {
   double breaking_load = 0;      ///< N; 0: not known
   double buckling_load = 0;      ///< N; of its longest element by Euler; 0: not known
   double stiffness_damping = 0;  ///< s; times damping_product(); lowers the step limit
-  std::string scene_part;        ///< key of the scene's part; a net with double twists makes two parts of one
+  std::string scene_part = {};   ///< key of the scene's part; a net with double twists makes two parts of one
   double wire_radius = 0;        ///< m; of what a rock touches, where the part's shape knows it
 };
 

@@ -11,7 +11,7 @@ import sys
 import tempfile
 
 BLOCK = re.compile(r"^```sh\n(.*?)^```", re.S | re.M)
-SKIPPED = ("./talus test", "./talus bench", "./talus study")  # the suite itself, and what takes minutes
+SKIPPED = ("./talus test", "./talus bench", "./talus study", "./talus tune")  # the suite itself, and what takes minutes
 
 
 def commands(page: pathlib.Path):

@@ -79,6 +79,14 @@ TEST_CASE(
   CHECK_FALSE(may_go(own_effect(false), 0));
 }
 
+TEST_CASE("what may be left out is known by the key that names it, and all rules are asked") {
+  ResultFacts facts = facts_with({{"third.wind_J", 0}});
+  facts.effects = {own_effect()};
+  const auto findings = findings_of(facts);
+  REQUIRE(findings.size() == 1);
+  CHECK(findings.front().key == "third.wind");
+}
+
 TEST_CASE("an effect that may hold without work may be left out only where its line stays at round-off") {
   EffectFacts friction = own_effect();
   friction.may_hold = true;
