@@ -14,7 +14,7 @@ void add_regress(CLI::App& app, Chosen& chosen) {
   command->add_option("DIR", request->folder, "the folder, such as configs/regression")->required();
   command->add_option("--out", request->out, "folder of the results and of junit.xml")->capture_default_str();
   command->add_option("--jobs", request->jobs, "runs side by side; default: as many as there are cores")
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::Range(1, 1024));
   command->add_flag("--update", request->update, "make the results the new baselines");
   command->callback([request, &chosen] { chosen.run = [request] { return regress::regress(*request); }; });
 }

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <regex>
 
 namespace talus::barrier {
 
@@ -67,8 +68,17 @@ std::string known_profiles() {
 const Net* find_net(const std::string& kind) {
   return find(nets, [&](const Net& net) { return net.kind == kind; });
 }
+std::optional<RingNet> find_ring_net(const std::string& kind) {
+  static const std::regex form("ring_([0-9]{1,2})_([0-9]{1,2})_([0-9]{2,4})");
+  std::smatch found;
+  if (!std::regex_match(kind, found, form)) return {};
+  const RingNet net{std::stoi(found[1]), 1e-3 * std::stoi(found[2]), 1e-3 * std::stoi(found[3])};
+  if (net.windings == 0 || net.wire_diameter == 0 || net.diameter == 0) return {};
+  return net;
+}
 std::string known_nets() {
-  return names(nets, [](const Net& net) { return net.kind; });
+  return names(nets, [](const Net& net) { return net.kind; }) +
+         ", and rings as in ring_7_3_300 (windings, wire and ring in mm)";
 }
 
 }  // namespace talus::barrier

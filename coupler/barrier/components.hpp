@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "core/scene/fields.hpp"
@@ -38,6 +39,15 @@ struct Net {
   double poissons_ratio = 0, shear_modulus = 0;                ///< 1, Pa
 };
 const Net* find_net(const std::string& kind);
+
+/// A net of interlocked rings, each of several windings of one wire.
+struct RingNet {
+  int windings = 0;
+  double wire_diameter = 0, diameter = 0;  ///< m; of the wire, of a ring inside
+};
+/// "ring_7_3_300": windings, diameter of the wire and of a ring in millimetres; empty for other names.
+std::optional<RingNet> find_ring_net(const std::string& kind);
+/// Both kinds.
 std::string known_nets();
 
 }  // namespace talus::barrier

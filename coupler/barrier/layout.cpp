@@ -28,6 +28,13 @@ double half_depth(const BlockSheet& block, double edge) {
   return block.form == BlockSheet::Form::eota_221 ? 0.25 * edge : 0.5 * edge;
 }
 
+/// What fits between the posts' ends; rings are whole.
+double height_of_net(const BarrierSheet& sheet) {
+  const double room = sheet.posts.length - 2 * sheet.net.gap;
+  const auto rings = find_ring_net(sheet.net.kind);
+  return rings ? std::floor(room / rings->diameter + 1e-9) * rings->diameter : room;
+}
+
 }  // namespace
 
 Layout layout_of(const BarrierSheet& sheet) {
@@ -55,9 +62,9 @@ Layout layout_of(const BarrierSheet& sheet) {
     layout.upper_end[side] = towards(layout.upper_anchor[side], layout.heads[post]);
     layout.lower_end[side] = towards(layout.lower_anchor[side], layout.feet[post]);
   }
-  layout.net_corner = layout.feet[0] + sheet.net.gap * layout.up_the_post;
   layout.net_length = row;
-  layout.net_height = posts.length - 2 * sheet.net.gap;
+  layout.net_height = height_of_net(sheet);
+  layout.net_corner = layout.feet[0] + 0.5 * (posts.length - layout.net_height) * layout.up_the_post;
   layout.net_normal = {0, std::cos(posts.lean), -std::sin(posts.lean)};
   const double along = sheet.block.along.value_or(0.5 * row);
   const double height = sheet.block.height.value_or(0.5 * posts.length);
@@ -145,6 +152,16 @@ class Inspection {
     const double edge = layout_.block_edge, row = layout_.net_length, along = layout_.hit.x();
     const double height = sheet_.block.height.value_or(0.5 * sheet_.posts.length);
     impossible(layout_.net_height <= 0, "net.gap leaves nothing of the net between the posts' ends");
+    if (const auto rings = find_ring_net(sheet_.net.kind)) {
+      const double along_row = row / rings->diameter, whole = std::round(along_row);
+      impossible(
+          std::abs(along_row - whole) > 0.01 * along_row,
+          fmt::format(
+              "the row of {:.4g} m is {:.4g} rings of {:.4g} m long; rings are whole: posts.spacing of "
+              "{:.4g} m fits",
+              row, along_row, rings->diameter,
+              whole * rings->diameter / static_cast<double>(sheet_.posts.count - 1)));
+    }
     impossible(edge > layout_.net_height,
                fmt::format("the block ({:.3g} m) is larger than the net is high ({:.3g} m)", edge,
                            layout_.net_height));

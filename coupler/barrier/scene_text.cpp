@@ -39,7 +39,8 @@ class Writer {
       : title_(loaded.title),
         sheet_(loaded.sheet),
         layout_(layout),
-        net_(*find_net(sheet_.net.kind)),
+        net_(find_net(sheet_.net.kind)),
+        rings_(find_ring_net(sheet_.net.kind)),
         stage_(stage) {
     line(0, "# {}", first_line);
     line(0, "# x along the row, y up the slope, z off it; the ground is z = 0.");
@@ -68,6 +69,12 @@ class Writer {
 
   bool has_block() const { return !stage_ || stage_->has_block; }
   std::size_t posts() const { return layout_.feet.size(); }
+  bool breaks() const { return sheet_.test.breaks == TestSheet::Breaks::at_breaking_load; }
+  /// Of ropes side by side, as a key of their element.
+  std::string strength(double newtons) const {
+    return fmt::format("breaking_load: {0} N{1}", number(newtons),
+                       breaks() ? fmt::format(", breaks: {{force: {} N}}", number(newtons)) : "");
+  }
   double step() const { return sheet_.test.step.value_or(sheet_.support_ropes.friction ? 8e-6 : 25e-6); }
   std::string gravity() const {
     return direction(
@@ -83,17 +90,37 @@ class Writer {
     else if (!stage_ && sheet_.test.start == TestSheet::Start::hung)
       line(1, "start: {{relaxation: {{}}}}  # test.start: hung");
     line(1, "parts:");
-    net();
+    rings_ ? ring_net() : membrane();
     post_parts();
     anchor_ropes();
     support_ropes();
     node_sets();
     line(1, "weld: {{tolerance: 1 mm}}");
     supports();
+    if (sheet_.ground) {
+      line(1, "# ground: the lower ropes' radius stays above it");
+      line(1, "obstacles:");
+      line(2,
+           "ground: {{plane: {{point: [0, 0, 0], normal: [0, 0, 1]}}, nodes: [net, lower], distance: {} m, "
+           "friction: {}}}",
+           number(0.5 * sheet_.support_ropes.diameter), number(sheet_.ground->friction));
+    }
   }
 
-  void net() {
-    line(2, "# net.kind {}: a membrane for its wires", net_.kind);
+  void ring_net() {
+    line(2, "# net.kind {}: every ring is an element", sheet_.net.kind);
+    line(2, "net:");
+    line(3,
+         "ring_net: {{corner: {}, size: [{} m, {} m], along: [1, 0, 0], across: {}, inner_diameter: {} m, "
+         "wire_diameter: {} m, windings: {}}}",
+         point(layout_.net_corner), number(layout_.net_length), number(layout_.net_height),
+         direction(layout_.up_the_post), number(rings_->diameter), number(rings_->wire_diameter),
+         rings_->windings);
+    line(3, "ring: {}", breaks() ? "{breaks: {}}" : "{}");
+  }
+
+  void membrane() {
+    line(2, "# net.kind {}: a membrane for its wires", net_->kind);
     line(2, "net:");
     line(
         3,
@@ -101,13 +128,13 @@ class Writer {
         point(layout_.net_corner), number(layout_.net_length), number(layout_.net_height),
         direction(layout_.up_the_post), number(sheet_.net.cell_along), number(sheet_.net.cell_across));
     line(3, "membrane:");
-    line(4, "thickness: {} m", number(net_.thickness));
-    line(4, "density: {} kg/m^3", number(net_.density));
+    line(4, "thickness: {} m", number(net_->thickness));
+    line(4, "density: {} kg/m^3", number(net_->density));
     line(4,
          "orthotropic: {{youngs_modulus_x: {} Pa, youngs_modulus_y: {} Pa, poissons_ratio_xy: {}, "
          "shear_modulus: {} Pa}}",
-         number(net_.youngs_modulus_along), number(net_.youngs_modulus_across), number(net_.poissons_ratio),
-         number(net_.shear_modulus));
+         number(net_->youngs_modulus_along), number(net_->youngs_modulus_across),
+         number(net_->poissons_ratio), number(net_->shear_modulus));
     line(4, "material_axis: [1, 0, 0]");
     line(4, "tension_field: {{wrinkle_direction: iterated}}");
   }
@@ -126,9 +153,9 @@ class Writer {
 
   std::string cable_of(double diameter, const char* anchor) const {
     const Rope& rope = *find_rope(diameter);
-    return fmt::format("&{} {{area: {} m^2, density: {} kg/m^3, youngs_modulus: {} Pa, breaking_load: {} N}}",
-                       anchor, number(rope.area), number(steel_density), number(rope_modulus),
-                       number(rope.breaking_load));
+    return fmt::format("&{} {{area: {} m^2, density: {} kg/m^3, youngs_modulus: {} Pa, {}}}", anchor,
+                       number(rope.area), number(steel_density), number(rope_modulus),
+                       strength(rope.breaking_load));
   }
 
   void anchor_ropes() {
@@ -152,10 +179,9 @@ class Writer {
     if (ropes.brakes)
       brakes(*ropes.brakes);
     else
-      end_pieces(fmt::format(
-          "&piece {{area: {} m^2, density: {} kg/m^3, youngs_modulus: {} Pa, breaking_load: {} N}}",
-          number(count * rope.area), number(steel_density), number(rope_modulus),
-          number(count * rope.breaking_load)));
+      end_pieces(fmt::format("&piece {{area: {} m^2, density: {} kg/m^3, youngs_modulus: {} Pa, {}}}",
+                             number(count * rope.area), number(steel_density), number(rope_modulus),
+                             strength(count * rope.breaking_load)));
     line(2, "# support_ropes: {} side by side written as one, through all posts and the net's edge",
          ropes.number);
     for (const bool upper : {true, false}) {
@@ -169,11 +195,9 @@ class Writer {
       line(3, "through: {{nodes: [{}]}}", nodes);
       const std::string friction =
           ropes.friction ? fmt::format(", friction: {}", number(*ropes.friction)) : "";
-      line(
-          3,
-          "sliding_cable: {{area: {} m^2, density: {} kg/m^3, youngs_modulus: {} Pa, breaking_load: {} N{}}}",
-          number(count * rope.area), number(steel_density), number(rope_modulus),
-          number(count * rope.breaking_load), friction);
+      line(3, "sliding_cable: {{area: {} m^2, density: {} kg/m^3, youngs_modulus: {} Pa, {}{}}}",
+           number(count * rope.area), number(steel_density), number(rope_modulus),
+           strength(count * rope.breaking_load), friction);
     }
     const Rope& side = *find_rope(sheet_.retaining_ropes.diameter);
     line(2, "# the net's edges beside the first and the last post, on ropes like the retaining ones");
@@ -182,12 +206,10 @@ class Writer {
       // A sheet's edges run round it: the western one down, the eastern one up.
       line(2, "side_{}: {{through: {{nodes: [post_{}.{}, net.edge_{}, post_{}.{}]}}, sliding_cable: {}}}",
            sides[k], post, k == 0 ? "end" : "start", k == 0 ? "west" : "east", post, k == 0 ? "start" : "end",
-           k > 0
-               ? "*side"
-               : fmt::format(
-                     "&side {{area: {} m^2, density: {} kg/m^3, youngs_modulus: {} Pa, breaking_load: {} N}}",
-                     number(side.area), number(steel_density), number(rope_modulus),
-                     number(side.breaking_load)));
+           k > 0 ? "*side"
+                 : fmt::format("&side {{area: {} m^2, density: {} kg/m^3, youngs_modulus: {} Pa, {}}}",
+                               number(side.area), number(steel_density), number(rope_modulus),
+                               strength(side.breaking_load)));
     }
   }
 
@@ -267,8 +289,12 @@ class Writer {
     line(2, "concrete: {{density: {} kg/m^3, youngs_modulus: 20 MPa, poissons_ratio: 0.2}}",
          number(block.density));
     line(2, "wire: {{youngs_modulus: 1e20 Pa, poissons_ratio: 0.25}}");
+    if (sheet_.ground) line(2, "soil: {{youngs_modulus: 1e20 Pa, poissons_ratio: 0.25}}");
     line(1, "contacts:");
     line(2, "- {{between: [concrete, wire], hertz: {{restitution: 0.2}}, friction: {{coefficient: 0.4}}}}");
+    if (sheet_.ground)
+      line(2, "- {{between: [concrete, soil], hertz: {{restitution: 0.2}}, friction: {{coefficient: {}}}}}",
+           number(sheet_.ground->friction));
     line(1, "rocks:");
     line(2, "# block: a face parallel to the net, {} mm in front of it", number(1e3 * block.distance));
     line(2, "block:");
@@ -285,29 +311,38 @@ class Writer {
     const double turn = block.form == BlockSheet::Form::eota_221 ? -std::numbers::pi / 2 - sheet_.posts.lean
                                                                  : -sheet_.posts.lean;
     line(3, "turned: [{} rad, 0 rad, 0 rad]", number(turn));
+    if (sheet_.ground)
+      line(1, "planes: {{ground: {{material: soil, point: [0 m, 0 m, 0 m], normal: [0, 0, 1]}}}}");
   }
 
   void coupling() {
+    line(0, "\ninterface:");
+    line(1, "structure: [net]");
+    line(1, "boundary:");
+    if (rings_)
+      line(2, "same_as_structure: {{material: wire}}");
+    else
+      wires();
+    line(0, "\ncoupling:");
+    line(1, "serial_explicit: {{}}");
+  }
+
+  void wires() {
     // Wires where the block may touch: the spans beside the hit, whole meshes.
-    const double mesh = net_.diagonal_along, reach = 0.5 * sheet_.posts.spacing + layout_.block_edge;
+    const double mesh = net_->diagonal_along, reach = 0.5 * sheet_.posts.spacing + layout_.block_edge;
     const double low = std::max(0.0, std::floor((layout_.hit.x() - reach) / mesh)) * mesh;
     const double high =
         std::min(std::floor(layout_.net_length / mesh + 1e-9), std::ceil((layout_.hit.x() + reach) / mesh)) *
         mesh;
     const Vector3 corner = layout_.net_corner + Vector3(low, 0, 0);
-    line(0, "\ninterface:");
-    line(1, "structure: [net]");
-    line(1, "boundary:");
     line(2,
          "rhombic_net: {{corner: {}, size: [{} m, {} m], along: [1, 0, 0], across: {}, diagonals: [{} m, {} "
          "m], wire_diameter: {} m, material: wire}}",
-         point(corner), number(high - low), number(meshes_across() * net_.diagonal_across),
-         direction(layout_.up_the_post), number(net_.diagonal_along), number(net_.diagonal_across),
-         number(net_.wire_diameter));
-    line(0, "\ncoupling:");
-    line(1, "serial_explicit: {{}}");
+         point(corner), number(high - low), number(meshes_across() * net_->diagonal_across),
+         direction(layout_.up_the_post), number(net_->diagonal_along), number(net_->diagonal_across),
+         number(net_->wire_diameter));
   }
-  double meshes_across() const { return std::floor(layout_.net_height / net_.diagonal_across + 1e-6); }
+  double meshes_across() const { return std::floor(layout_.net_height / net_->diagonal_across + 1e-6); }
 
   void output() {
     line(0, "\noutput:");
@@ -331,6 +366,12 @@ class Writer {
   Vector3 nearest_net_node() const {
     const double up =
         std::clamp((layout_.hit - layout_.net_corner).dot(layout_.up_the_post), 0.0, layout_.net_height);
+    if (rings_) {  // where a ring touches the next one along the row
+      const double d = rings_->diameter,
+                   row = std::floor(std::min(up, layout_.net_height - 0.5 * d) / d) + 0.5;
+      return layout_.net_corner + Vector3(std::round(layout_.hit.x() / d) * d, 0, 0) +
+             row * d * layout_.up_the_post;
+    }
     const double x = std::round(layout_.hit.x() / sheet_.net.cell_along) * sheet_.net.cell_along;
     return layout_.net_corner + Vector3(x, 0, 0) +
            std::round(up / sheet_.net.cell_across) * sheet_.net.cell_across * layout_.up_the_post;
@@ -339,7 +380,8 @@ class Writer {
   std::string title_;
   const BarrierSheet& sheet_;
   const Layout& layout_;
-  const Net& net_;
+  const Net* net_;  ///< null: rings
+  std::optional<RingNet> rings_;
   const Stage* stage_;
   std::string text_;
 };
@@ -363,6 +405,9 @@ std::string assumptions(const BarrierSheet& sheet) {
   add("ropes have 1770 MPa wire, 100 GPa on their metallic area, and the breaking loads of the trade's "
       "tables");
   add("a brake's force rises to 80 % at 20 mm, is whole at 0.1 m and 10 % more at its end; stop of 10 MN/m");
+  if (find_ring_net(sheet.net.kind))
+    add("rings bend and stretch as three chains of three rings of 3 mm wire did, and give nearly nothing "
+        "back");
   if (!sheet.support_ropes.friction)
     add("support ropes slide without friction (friction: 0.1 to 0.3 is measured)");
   add("the block's contact with wires has 20 MPa, restitution 0.2 and friction 0.4");

@@ -30,17 +30,21 @@ void describe(core::Fields& fields, PostSheet& posts) {
 }
 
 void describe(core::Fields& fields, NetSheet& net) {
-  fields.required("kind", net.kind, {.help = "name of a net of the table of components"});
-  fields.with_default(
-      "gap", net.gap,
-      {.unit = "m", .range = core::positive, .help = "between the net's edges and the posts' ends"});
+  fields.required(
+      "kind", net.kind,
+      {.help = "name of a net of the table of components, or rings: `ring_7_3_300` has 7 windings of 3 mm "
+               "wire, 300 mm wide"});
+  fields.with_default("gap", net.gap,
+                      {.unit = "m",
+                       .range = core::positive,
+                       .help = "between the net's edges and the posts' ends, at least: rings are whole"});
   fields.with_default(
       "cell_along", net.cell_along,
       {.unit = "m", .range = core::positive, .help = "of the membrane's mesh, along the row"});
   fields.with_default(
       "cell_across", net.cell_across,
       {.unit = "m", .range = core::positive, .help = "of the membrane's mesh, along the posts"});
-  fields.rule(find_net(net.kind) != nullptr, "kind",
+  fields.rule(find_net(net.kind) != nullptr || find_ring_net(net.kind), "kind",
               fmt::format("there is no net `{}`; known: {}", net.kind, known_nets()));
 }
 
@@ -112,10 +116,19 @@ void describe(core::Fields& fields, BlockSheet& block) {
       {.unit = "m", .help = "where it hits along the posts, from their feet; absent: the middle of the net"});
 }
 
+void describe(core::Fields& fields, GroundSheet& ground) {
+  fields.with_default("friction", ground.friction,
+                      {.range = core::not_negative,
+                       .help = "of net, ropes and block on it",
+                       .plausible = core::plausible::friction});
+}
+
 void describe(core::Fields& fields, TestSheet& test) {
   fields.choice(
       "start", test.start, {"flat", "hung"},
       "the net as it was laid out, or hanging under its weight (found by relaxation before time 0)");
+  fields.choice("breaks", test.breaks, {"nothing", "at_breaking_load"},
+                "whether ropes, and rings, are lost at their breaking loads");
   fields.with_default("time", test.time, {.unit = "s", .range = core::positive, .help = "of the run"});
   fields.optional(
       "step", test.step,
@@ -133,6 +146,8 @@ void describe(core::Fields& fields, BarrierSheet& barrier) {
   fields.section("retaining_ropes", barrier.retaining_ropes, "from every head up the slope");
   fields.section("lateral_ropes", barrier.lateral_ropes, "from the edge posts' heads to the sides");
   fields.section("block", barrier.block, "that hits it");
+  fields.section("ground", barrier.ground,
+                 "stops the net, the lower ropes and the block; absent: they pass through it");
   fields.section("test", barrier.test, "how long, and from where");
 }
 

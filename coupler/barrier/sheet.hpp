@@ -23,7 +23,7 @@ struct PostSheet {
 };
 void describe(core::Fields& fields, PostSheet& posts);
 
-/// A net of rhombic meshes, computed as a membrane and met by the block wire by wire.
+/// A net of rhombic meshes, computed as a membrane and met by the block wire by wire; or of rings, each an element.
 struct NetSheet {
   std::string kind;
   double gap = 0.05;            ///< m; between its edges and the posts' ends
@@ -74,8 +74,15 @@ struct BlockSheet {
 };
 void describe(core::Fields& fields, BlockSheet& block);
 
+/// The slope itself, in which posts and anchors stand.
+struct GroundSheet {
+  double friction = 0.5;
+};
+void describe(core::Fields& fields, GroundSheet& ground);
+
 struct TestSheet {
   enum class Start { flat, hung } start = Start::flat;
+  enum class Breaks { nothing, at_breaking_load } breaks = Breaks::nothing;
   double time = 0.7;           ///< s
   std::optional<double> step;  ///< s
 };
@@ -89,6 +96,7 @@ struct BarrierSheet {
   RetainingRopeSheet retaining_ropes;
   LateralRopeSheet lateral_ropes;
   BlockSheet block;
+  std::optional<GroundSheet> ground;
   TestSheet test;
 };
 void describe(core::Fields& fields, BarrierSheet& barrier);

@@ -45,6 +45,7 @@ WRONG = [
     ("lean: 15 deg", "lean: 80 deg", "barrier.posts.lean"),
     ("HEA160", "HEA161", "HEA161"),
     ("rhombic_83x137_3", "rings", "there is no net `rings`"),
+    ("rhombic_83x137_3", "ring_0_3_300", "there is no net `ring_0_3_300`"),
     ("rhombic_83x137_3}", "rhombic_83x137_3, gap: 3 m}", "leaves nothing of the net"),
     ("    diameter: 18 mm", "    diameter: 17 mm", "there is no rope of 17 mm; known: 8 mm"),
     ("number: 2", "number: 0", "barrier.support_ropes.number"),
@@ -112,6 +113,46 @@ class FromASheet(unittest.TestCase):
                 run = Run(scene, short)
                 self.assertEqual(run.summary["status"], "finished")
                 self.assertLess(run.energy_error(), 1e-3)
+
+    def test_the_decks_of_this_repository_are_what_their_sheets_write(self):
+        for deck in ("d500", "d2000", "d3000"):
+            with self.subTest(deck):
+                written = (ROOT / f"configs/barriers/{deck}.yaml").read_text()
+                done, scene = barrier((ROOT / f"configs/sheets/{deck}.yaml").read_text())
+                self.assertEqual(done.returncode, 0, done.stderr)
+                self.assertEqual(written.split("\n")[1:], scene.read_text().split("\n")[1:])  # the first line names the sheet
+
+    def test_a_net_of_rings_has_whole_rings_and_their_weight(self):
+        done, scene = barrier(changed(("rhombic_83x137_3", "ring_7_3_300")))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("default, verify: rings bend", done.stdout + done.stderr)
+        # 4.5 m less 2 x 0.05 m hold 14 rings of 0.3 m, 100 are 30 m long: 4.2 m between 0.15 m at both ends of the posts.
+        text = scene.read_text()
+        self.assertIn("size: [30 m, 4.2 m]", text)
+        corner = [float(x) for x in re.search(r"ring_net: {corner: \[([\d.]+) m, ([\d.]+) m, ([\d.]+) m\]", text).groups()]
+        lean = math.radians(15)
+        for value, expected in zip(corner, (0, 0.15 * math.sin(lean), 0.5 + 0.15 * math.cos(lean))):
+            self.assertAlmostEqual(value, expected, places=6)
+        run = Run(scene, "time: {end: 3 ms}\noutput: {every: 1 ms, fields_every: ~}\n")
+        self.assertLess(run.energy_error(), 1e-3)
+
+    def test_ground_and_breaking_loads_of_the_sheet_are_in_the_scene(self):
+        done, scene = barrier(changed(("  test: {time: 0.7 s}", "  ground: {friction: 0.3}\n  test: {time: 0.7 s, breaks: at_breaking_load}")))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        text = scene.read_text()
+        self.assertIn("ground: {plane: {point: [0, 0, 0], normal: [0, 0, 1]}, nodes: [net, lower], distance: 0.009 m, friction: 0.3}", text)
+        self.assertIn("planes: {ground: {material: soil", text)
+        # Two ropes of 18 mm side by side, one of 18 mm beside every post.
+        self.assertIn("breaks: {force: 380000 N}", text)
+        self.assertIn("breaks: {force: 190000 N}", text)
+        run = Run(scene, "time: {end: 3 ms}\noutput: {every: 1 ms, fields_every: ~}\n")
+        self.assertEqual(run.summary["status"], "finished")
+        self.assertLess(run.energy_error(), 1e-3)
+
+    def test_a_row_that_is_no_whole_number_of_rings_is_refused_with_the_spacing_that_fits(self):
+        done, _ = barrier(changed(("rhombic_83x137_3", "ring_7_3_300"), ("count: 4", "count: 2"), ("spacing: 10 m", "spacing: 4.95 m")))
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("rings are whole: posts.spacing of", done.stderr)
 
     def test_a_wrong_sheet_gets_a_sentence_and_no_scene(self):
         for old, new, words in WRONG:

@@ -168,13 +168,13 @@ TEST_CASE("a restart names the keys of a scene that changed, and refuses a state
                Contains("particles.spheres.stone.velocity[2]: -25 m/s, in the checkpoint -5.74029"));
     CHECK_FALSE(std::filesystem::exists(example.folder("restarted")));
   }
-  SECTION("another number of nodes") {
+  SECTION("a structure of other nodes") {
     example.change("structure: {parts: {net: {square_net: {pitch: 0.3 m}}}}");
     const auto end = example.start("restarted", "stopped")->wait();
     CHECK(end.code == 2);
     CHECK_THAT(end.output,
                Contains("structure.parts.net.square_net.pitch: 0.3 m, in the checkpoint 0.15 m") &&
-                   Contains("belongs to another scene"));
+                   Contains("take these back"));
   }
   SECTION("an end before the checkpoint") {
     example.change("time: {end: 100 us}");
