@@ -76,9 +76,22 @@ LoadedTree base_of(const SceneEntry& extends, const Link& link, std::vector<Comp
   return tree_of(file_text(base, problem), next, complaints);
 }
 
+/// A solver that is named by a word alone becomes the section it stands for.
+void spell_out_solvers(SceneNode& root) {
+  for (const char* const side : {"structure", "particles"}) {
+    SceneEntry* const section = root.find(side);
+    SceneEntry* const solver = section == nullptr ? nullptr : section->value.find("solver");
+    if (solver == nullptr || solver->value.kind != SceneNode::Kind::scalar) continue;
+    SceneNode program = std::move(solver->value);
+    solver->value = SceneNode(SceneNode::Kind::map, program.place);
+    solver->value.entries.push_back({"program", program.place, solver->rank, std::move(program)});
+  }
+}
+
 LoadedTree tree_of(const std::string& text, const Link& link, std::vector<Complaint>& complaints) {
   SceneNode own = parse_yaml(text, link.path, complaints);
   if (own.kind != SceneNode::Kind::map) throw ConfigError(complaints);
+  spell_out_solvers(own);
   const SceneEntry* extends = own.find("extends");
   if (!extends) return {std::move(own), 0};
   LoadedTree base = base_of(*extends, link, complaints);
@@ -258,6 +271,7 @@ void SceneFile::set(const std::string& key_path, const std::string& value) {
     over.entries.push_back({steps.back(), replacement.place, rank, replacement});
     *node = overlay(std::move(*node), over, rank);
   }
+  spell_out_solvers(content_->root);
 }
 
 void log_warnings(std::vector<Complaint>& complaints) {

@@ -23,6 +23,8 @@ const std::vector<std::string>& scene_sections();
 /// `extends: base.yaml` (relative to the file it stands in) lays the file over another: maps are merged key
 /// by key, lists and scalars replaced, and `key: ~` removes the base's key. Where the later file names
 /// another alternative of a choice (Fields::one_of), it replaces the base's.
+///
+/// `structure: {solver: NAME}` is read as `structure: {solver: {program: NAME}}`, and so for the particles.
 class SceneFile {
  public:
   /// @throws ConfigError where the text cannot be read at all. Duplicate keys are kept for

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
+
 #include "core/scene/plausible.hpp"
 
 namespace talus::core {
@@ -18,6 +21,47 @@ void describe(Fields& fields, TimeScene& time) {
                    .help = "step of both sides, and the coupling window where that is not given"});
   fields.rule(!time.step || *time.step <= time.end, "step",
               fmt::format("must not be longer than the run, which ends at {} s", time.end));
+}
+
+namespace {
+
+bool is_assignment(const std::string& text) {
+  const auto end = text.find('=');
+  return end != std::string::npos && end > 0 && std::isdigit(static_cast<unsigned char>(text.front())) == 0 &&
+         std::all_of(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(end),
+                     [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; });
+}
+
+}  // namespace
+
+void describe(Fields& fields, SolverScene& solver) {
+  fields.optional(
+      "program", solver.program,
+      {.help = "looked for relative to the scene, beside talus, then on PATH; a file that ends in .py is "
+               "run by Python; absent: Talus's own. `solver: NAME` is short for this key alone"});
+  fields.with_default("arguments", solver.arguments,
+                      {.help = "what the program is given before the scene, e.g. [--mesh, fine.msh]"});
+  fields.with_default(
+      "environment", solver.environment,
+      {.help = "variables the program gets besides those of talus, e.g. [OMP_NUM_THREADS=4]"});
+  fields.optional(
+      "working_folder", solver.working_folder,
+      {.help = "folder it is started in, seen from the file this stands in; absent: that of talus"});
+  fields.with_default(
+      "launcher", solver.launcher,
+      {.help = "what starts the program, a program on PATH with its arguments, e.g. [mpirun, -n, 4]"});
+  fields.optional("timeout", solver.timeout,
+                  {.unit = "s",
+                   .range = positive,
+                   .help = "longest time this side may take for one answer; absent: `coupling.timeout`"});
+  fields.optional(
+      "join_timeout", solver.join_timeout,
+      {.unit = "s",
+       .range = positive,
+       .help = "longest time this side may take to start and join; absent: `coupling.join_timeout`"});
+  const auto wrong = std::find_if_not(solver.environment.begin(), solver.environment.end(), is_assignment);
+  fields.rule(wrong == solver.environment.end(), "environment",
+              fmt::format("expects NAME=value, got '{}'", wrong == solver.environment.end() ? "" : *wrong));
 }
 
 void describe(Fields& fields, ProbeScene& probe) {

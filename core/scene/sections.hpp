@@ -19,6 +19,23 @@ struct TimeScene {
 };
 void describe(Fields& fields, TimeScene& time);
 
+/// `structure.solver`, `particles.solver`: the program that computes this side, and how it is started. `solver: NAME`
+/// is short for `solver: {program: NAME}` (reader.hpp).
+struct SolverScene {
+  std::optional<std::string> program;           ///< absent: Talus's own
+  std::vector<std::string> arguments;           ///< before the scene
+  std::vector<std::string> environment;         ///< "NAME=value"
+  std::optional<std::string> working_folder;    ///< seen from the file it is written in
+  std::vector<std::string> launcher;            ///< a program on PATH and its arguments, before the program
+  std::optional<double> timeout, join_timeout;  ///< s; absent: those of `coupling`
+
+  /// Something is started that Talus does not bring, or not as it would start it.
+  bool is_foreign() const {
+    return program || !arguments.empty() || !environment.empty() || !launcher.empty();
+  }
+};
+void describe(Fields& fields, SolverScene& solver);
+
 /// One named probe: the point of a structure part, or a rock, whose history goes to probes.csv.
 struct ProbeScene {
   std::optional<Vector3>

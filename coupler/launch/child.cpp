@@ -8,10 +8,12 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cmath>
 #include <cstdlib>
+#include <string_view>
 #include <utility>
 
 #include "core/errors.hpp"
@@ -24,8 +26,40 @@ constexpr int could_not_start = 127;  // as a shell says it
 /// Signals that the coupler handles or ignores and whose default a program may expect.
 constexpr std::array own_signals{SIGINT, SIGTERM, SIGUSR1, SIGUSR2, SIGPIPE, SIGXFSZ};
 
-/// @param log a file for all output; negative: none
-[[noreturn]] void become(char* const* arguments, int log) {
+/// What the new process is to become, made before it is split off: afterwards nothing may allocate.
+struct Becoming {
+  const std::vector<char*>& arguments;
+  const std::vector<char*>& environment;
+  const char* folder = nullptr;  ///< null: ours
+  int log = -1;                  ///< a file for all output; negative: none
+};
+
+std::string_view name_in(std::string_view assignment) {
+  return assignment.substr(0, assignment.find('='));
+}
+
+/// Our variables, with those of `more` in their places.
+std::vector<std::string> environment_with(const std::vector<std::string>& more) {
+  std::vector<std::string> all = more;
+  const auto is_set = [&all](std::string_view name) {
+    return std::ranges::any_of(all, [name](const std::string& one) { return name_in(one) == name; });
+  };
+  for (char** ours = environ; *ours != nullptr; ++ours)
+    if (!is_set(name_in(*ours))) all.emplace_back(*ours);
+  // Idle threads of GCC's OpenMP would spin for milliseconds after each loop, on cores that the other
+  // processes of the run need next. A user's own choice stands.
+  if (!is_set("OMP_WAIT_POLICY") && !is_set("GOMP_SPINCOUNT")) all.emplace_back("GOMP_SPINCOUNT=1000");
+  return all;
+}
+
+std::vector<char*> pointers_to(const std::vector<std::string>& words) {
+  std::vector<char*> pointers;
+  for (const auto& word : words) pointers.push_back(const_cast<char*>(word.c_str()));
+  pointers.push_back(nullptr);
+  return pointers;
+}
+
+[[noreturn]] void become(const Becoming& program) {
   setpgid(0, 0);
   // A child stopped by SIGSTOP would outlive a killed coupler for good; continued, its participant notices
   // the death and ends it.
@@ -34,12 +68,10 @@ constexpr std::array own_signals{SIGINT, SIGTERM, SIGUSR1, SIGUSR2, SIGPIPE, SIG
   const int nothing = open("/dev/null", O_RDONLY);
   if (nothing >= 0) dup2(nothing, STDIN_FILENO);
   if (nothing > STDIN_FILENO) close(nothing);
-  if (log >= 0) dup2(log, STDERR_FILENO);
+  if (program.log >= 0) dup2(program.log, STDERR_FILENO);
   dup2(STDERR_FILENO, STDOUT_FILENO);
-  // Idle threads of GCC's OpenMP would spin for milliseconds after each loop, on cores that the other
-  // processes of the run need next. A user's own choice stands.
-  if (getenv("OMP_WAIT_POLICY") == nullptr) setenv("GOMP_SPINCOUNT", "1000", 0);
-  execvp(arguments[0], arguments);
+  if (program.folder == nullptr || chdir(program.folder) == 0)
+    execvpe(program.arguments[0], program.arguments.data(), program.environment.data());
   _exit(could_not_start);
 }
 
@@ -51,16 +83,19 @@ int open_log(const std::filesystem::path& path) {
   return file;
 }
 
-pid_t start(const std::vector<std::string>& command, const std::filesystem::path& log) {
-  std::vector<char*> arguments;
-  for (const auto& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
-  arguments.push_back(nullptr);
+pid_t start(const Program& program, const std::filesystem::path& log) {
   const int file = open_log(log);
+  const auto environment = environment_with(program.environment);
+  const std::vector<char*> arguments = pointers_to(program.command), variables = pointers_to(environment);
+  const Becoming becoming{.arguments = arguments,
+                          .environment = variables,
+                          .folder = program.folder.empty() ? nullptr : program.folder.c_str(),
+                          .log = file};
   const pid_t pid = fork();
-  if (pid == 0) become(arguments.data(), file);
+  if (pid == 0) become(becoming);
   if (file >= 0) close(file);
   if (pid < 0) {
-    throw core::TransportError({.peer = command.front(),
+    throw core::TransportError({.peer = program.command.front(),
                                 .waited_for = "the program to start",
                                 .reason = fmt::format("could not be started ({})", strerror(errno))});
   }
@@ -79,8 +114,8 @@ std::string ExitStatus::text() const {
   return fmt::format("ended with exit code {}", code);
 }
 
-Child::Child(const std::vector<std::string>& command, const std::filesystem::path& log)
-    : pid_(start(command, log)), handle_(transport::identify(pid_)) {}
+Child::Child(const Program& program, const std::filesystem::path& log)
+    : pid_(start(program, log)), handle_(transport::identify(pid_)) {}
 
 Child::Child(Child&& other) noexcept
     : pid_(std::exchange(other.pid_, 0)), handle_(std::move(other.handle_)), status_(other.status_) {}

@@ -13,8 +13,10 @@ namespace talus::coupler::launch {
 /// What is to be started, and what messages call it.
 struct Program {
   std::string name;
-  std::vector<std::string> command;  ///< program and arguments
-  std::filesystem::path file = {};   ///< of a program that a scene names: what really runs
+  std::vector<std::string> command;           ///< program and arguments
+  std::filesystem::path file = {};            ///< of a program that a scene names: what really runs
+  std::vector<std::string> environment = {};  ///< "NAME=value", besides ours
+  std::filesystem::path folder = {};          ///< it is started in; empty: ours
 };
 
 /// How a child ended.
@@ -31,11 +33,10 @@ struct ExitStatus {
 /// may not read from the terminal).
 class Child {
  public:
-  /// Starts `command` (program and arguments).
   /// @param log takes all its output; empty: its standard output goes to our standard error, which leaves ours
   /// to the results
   /// @throws TransportError if the system cannot start it, FileError where `log` cannot be written
-  explicit Child(const std::vector<std::string>& command, const std::filesystem::path& log = {});
+  explicit Child(const Program& program, const std::filesystem::path& log = {});
   ~Child();  ///< end()
   Child(Child&& other) noexcept;
   Child& operator=(Child&&) noexcept = delete;

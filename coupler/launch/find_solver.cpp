@@ -74,4 +74,12 @@ std::optional<Program> named_solver(const std::string& written, const fs::path& 
   return std::nullopt;
 }
 
+std::optional<fs::path> on_path(const std::string& name) {
+  if (name.find('/') != std::string::npos)
+    return access(name.c_str(), X_OK) == 0 ? std::optional<fs::path>(name) : std::nullopt;
+  for (const auto& folder : folders_of_path())
+    if (access((folder / name).c_str(), X_OK) == 0) return folder / name;
+  return std::nullopt;
+}
+
 }  // namespace talus::coupler::launch

@@ -22,4 +22,7 @@ std::filesystem::path own_solver(const std::string& name);
 std::optional<Program> named_solver(const std::string& written,
                                     const std::filesystem::path& relative_to_scene);
 
+/// A program as a shell finds it. @returns nothing where it is not on PATH, or cannot be started
+std::optional<std::filesystem::path> on_path(const std::string& name);
+
 }  // namespace talus::coupler::launch

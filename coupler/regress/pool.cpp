@@ -21,7 +21,8 @@ struct Running {
 
 launch::Child start(const ScheduledRun& run, const std::filesystem::path& program) {
   const std::string script = R"(exec "$0" run "$1" --out "$2" --overwrite --quiet > "$3" 2>&1)";
-  return launch::Child({"/bin/sh", "-c", script, program, run.scene, run.folder, run.console});
+  return launch::Child(
+      {.name = program, .command = {"/bin/sh", "-c", script, program, run.scene, run.folder, run.console}});
 }
 
 double seconds_since(Clock::time_point moment) {

@@ -12,41 +12,108 @@
 namespace talus::coupler {
 namespace {
 
+namespace fs = std::filesystem;
+
 struct SideProgram {
   Role role;
   const char* own_program;
-  const std::optional<SolverScene>& scene;
+  const std::optional<core::SolverScene>& scene;
+
+  std::string key(const char* of_the_solver) const {
+    return std::string(name_of(role)) + ".solver." + of_the_solver;
+  }
 };
 
-/// A side's program, or nothing with a complaint where the scene names one that is not there.
-std::optional<launch::Program> program_of(const SideProgram& side, const core::SceneFile& file, int threads,
-                                          std::vector<core::Complaint>& complaints) {
-  if (!side.scene->solver) {
-    return launch::Program{
-        side.own_program,
-        {launch::own_solver(side.own_program), file.path(), "--threads", std::to_string(threads)}};
+/// What a scene says about starting a side, as it is found on this machine.
+class SolverStart {
+ public:
+  SolverStart(const SideProgram& side, const core::SceneFile& file, std::vector<core::Complaint>& complaints)
+      : side_(side), scene_(*side.scene), file_(file), complaints_(complaints) {}
+
+  /// Nothing where what the scene says of it cannot be, with a complaint.
+  std::optional<launch::Program> program(int threads) {
+    if (is_complained_about()) return std::nullopt;
+    auto program = scene_.program ? named() : own();
+    const auto folder = working_folder();
+    if (!program || !folder || !add_launcher(*program)) return std::nullopt;
+    const fs::path scene = file_.path();
+    program->command.push_back(folder->empty() ? scene : fs::absolute(scene));
+    if (!scene_.program)
+      program->command.insert(program->command.end(), {"--threads", std::to_string(threads)});
+    program->environment = scene_.environment;
+    program->folder = *folder;
+    return program;
   }
-  const std::string& written = *side.scene->solver;
-  const std::string key_path = std::string(name_of(side.role)) + ".solver";
-  auto program = launch::named_solver(written, file.path_at(key_path));
-  if (program) {
-    program->command.push_back(file.path());
-  } else {
-    complaints.push_back(
-        {.file = file.path(),
-         .key_path = key_path,
-         .message = "names the program '" + written +
-                    "', which is not there: looked relative to the scene, beside talus, and on PATH"});
+
+ private:
+  bool is_complained_about() const {
+    return std::ranges::any_of(complaints_, [this](const core::Complaint& complaint) {
+      return complaint.key_path.starts_with(std::string(name_of(side_.role)) + ".solver");
+    });
   }
-  return program;
-}
+
+  std::optional<launch::Program> own() {
+    return launch::Program{.name = side_.own_program,
+                           .command = with_arguments({launch::own_solver(side_.own_program)})};
+  }
+
+  std::optional<launch::Program> named() {
+    auto program = launch::named_solver(*scene_.program, file_.path_at(side_.key("program")));
+    if (program) {
+      program->command = with_arguments(std::move(program->command));
+    } else {
+      complain("program",
+               "names the program '" + *scene_.program +
+                   "', which is not there: looked relative to the scene, beside talus, and on PATH");
+    }
+    return program;
+  }
+
+  std::vector<std::string> with_arguments(std::vector<std::string> command) const {
+    command.insert(command.end(), scene_.arguments.begin(), scene_.arguments.end());
+    return command;
+  }
+
+  bool add_launcher(launch::Program& program) {
+    if (scene_.launcher.empty()) return true;
+    const auto found = launch::on_path(scene_.launcher.front());
+    if (!found) {
+      complain("launcher", "names the program '" + scene_.launcher.front() + "', which is not on PATH");
+      return false;
+    }
+    if (program.file.empty()) program.file = *found;
+    program.command.insert(program.command.begin(), scene_.launcher.begin(), scene_.launcher.end());
+    return true;
+  }
+
+  /// Empty: ours. Nothing: it is not there.
+  std::optional<fs::path> working_folder() {
+    if (!scene_.working_folder) return fs::path();
+    const fs::path folder = fs::absolute(file_.path_at(side_.key("working_folder"))).lexically_normal();
+    if (fs::is_directory(folder)) return folder;
+    complain("working_folder",
+             "is '" + *scene_.working_folder + "', but there is no folder " + folder.string());
+    return std::nullopt;
+  }
+
+  void complain(const char* key, const std::string& message) {
+    complaints_.push_back({.file = file_.path(), .key_path = side_.key(key), .message = message});
+  }
+
+  const SideProgram& side_;
+  const core::SolverScene& scene_;
+  const core::SceneFile& file_;
+  std::vector<core::Complaint>& complaints_;
+};
 
 /// Tells whoever starts a side by hand how to.
 void announce(const SideProgram& side, const core::SceneFile& file, const Session& session, double seconds) {
-  core::log_info(fmt::format("waits {} for the {}; start it with\n  {} {} --join {}",
+  std::string arguments;
+  for (const auto& argument : side.scene->arguments) arguments += argument + " ";
+  core::log_info(fmt::format("waits {} for the {}; start it with\n  {} {}{} --join {}",
                              core::readable(seconds, "s"), name_of(side.role),
-                             side.scene->solver.value_or(side.own_program),
-                             std::filesystem::absolute(file.path()).string(), session.segment_name()));
+                             side.scene->program.value_or(side.own_program), arguments,
+                             fs::absolute(file.path()).string(), session.segment_name()));
 }
 
 std::unique_ptr<Session> open_session(const CouplingScene& coupling) {
@@ -90,21 +157,23 @@ PreparedRun prepare(const PrepareOptions& options) {
     if (!side.scene && by_hand)
       throw core::ConfigError(fmt::format("--wait {0}: the scene has no section '{0}'", name_of(side.role)));
     if (!side.scene) continue;
+    const Peer::Patience patience{.answer = side.scene->timeout.value_or(run.scene.coupling.timeout),
+                                  .join = side.scene->join_timeout.value_or(run.scene.coupling.join_timeout)};
     if (by_hand) {
-      run.session->await(side.role);
-      announce(side, run.file, *run.session, run.scene.coupling.join_timeout);
+      run.session->await(side.role).set_patience(patience);
+      announce(side, run.file, *run.session, patience.join);
       continue;
     }
-    const auto program = program_of(side, run.file, options.threads, complaints);
+    const auto program = SolverStart(side, run.file, complaints).program(options.threads);
     if (!program) continue;
-    const bool foreign = side.scene->solver.has_value();
+    const bool foreign = side.scene->is_foreign();
     if (foreign && !options.trust) {
       run.not_asked.push_back({side.role, program->file});
       continue;
     }
     if (foreign)
       core::log_info(fmt::format("the program of the {} is {}", name_of(side.role), program->file.string()));
-    run.session->launch(side.role, *program);
+    run.session->launch(side.role, *program).set_patience(patience);
   }
   run.session->wait_joined();
   std::optional<InterfacePlan> plan;

@@ -39,6 +39,10 @@ bool may_differ(const std::string& key) {
                                    "regression.",
                                    "coupling.timeout",
                                    "coupling.join_timeout",
+                                   "structure.solver.timeout",
+                                   "structure.solver.join_timeout",
+                                   "particles.solver.timeout",
+                                   "particles.solver.join_timeout",
                                    "coupling.checkpoint_every",
                                    "particles.threads"};
   return std::ranges::any_of(free, [&](const char* start) { return key.starts_with(start); });

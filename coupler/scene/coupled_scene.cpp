@@ -11,23 +11,19 @@
 namespace talus::coupler {
 namespace {
 
-void describe(core::Fields& fields, SolverScene& side) {
-  fields.optional("solver", side.solver,
-                  {.help = "another program that computes this side; absent: Talus's own"});
-}
-
 /// The rest of a side's section is its solver's business, complaints included.
-std::optional<SolverScene> read_side(const core::SceneFile& file, const std::string& section,
-                                     std::vector<core::Complaint>& complaints) {
+std::optional<core::SolverScene> read_side(const core::SceneFile& file, const std::string& section,
+                                           std::vector<core::Complaint>& complaints) {
   if (!file.has_section(section)) return std::nullopt;
-  SolverScene side;
+  std::optional<core::SolverScene> solver;
   std::vector<core::Complaint> all;
   file.read(
-      section, core::Presence::optional, [&](core::Fields& fields) { describe(fields, side); }, all);
+      section, core::Presence::optional,
+      [&](core::Fields& fields) { fields.section("solver", solver, "the program of this side"); }, all);
   for (auto& complaint : all) {
-    if (complaint.key_path == section + ".solver") complaints.push_back(std::move(complaint));
+    if (complaint.key_path.starts_with(section + ".solver")) complaints.push_back(std::move(complaint));
   }
-  return side;
+  return solver.value_or(core::SolverScene{});
 }
 
 template <class Section>

@@ -13,11 +13,6 @@
 
 namespace talus::coupler {
 
-/// The program of one side of a scene.
-struct SolverScene {
-  std::optional<std::string> solver;  ///< absent: Talus's own
-};
-
 /// A scene as the coupler sees it. The sections `structure` and `particles` belong to the solvers; only their
 /// key `solver` is read here.
 struct CoupledScene {
@@ -25,7 +20,7 @@ struct CoupledScene {
   core::OutputScene output;
   CouplingScene coupling;
   std::optional<InterfaceScene> interface;
-  std::optional<SolverScene> structure, particles;
+  std::optional<core::SolverScene> structure, particles;
 
   /// s; the regular one. As long as the scene says where that divides the run, else shorter, so that the run
   /// ends with a window (core::equal_steps).

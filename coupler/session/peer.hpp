@@ -25,6 +25,12 @@ class Peer {
   pid_t pid() const;
   void set_program(std::string name) { program_ = std::move(name); }
   void set_child(launch::Child child) { child_.emplace(std::move(child)); }
+  /// s that it may take for an answer, and from the start until it has joined.
+  struct Patience {
+    double answer = 0, join = 0;
+  };
+  void set_patience(const Patience& patience) { patience_ = patience; }
+  const Patience& patience() const { return patience_; }
   launch::Child* child() { return child_ ? &*child_ : nullptr; }
   transport::Channel& channel() { return channel_; }
 
@@ -61,6 +67,7 @@ class Peer {
   Role role_;
   transport::Channel& channel_;
   std::string program_;
+  Patience patience_;
   std::optional<launch::Child> child_;
   transport::ProcessHandle process_;
   std::array<std::span<double>, transport::array_count> arrays_;

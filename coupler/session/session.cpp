@@ -57,13 +57,14 @@ Session::~Session() {
 
 Peer& Session::await(Role role) {
   peers_.push_back(std::make_unique<Peer>(role, control_.channels[static_cast<std::size_t>(role)]));
+  peers_.back()->set_patience({.answer = options_.timeout, .join = options_.join_timeout});
   return *peers_.back();
 }
 
 Peer& Session::launch(Role role, const launch::Program& program) {
   Peer& peer = await(role);
-  std::vector<std::string> full = program.command;
-  full.insert(full.end(), {"--join", segment_->name()});
+  launch::Program full = program;
+  full.command.insert(full.command.end(), {"--join", segment_->name()});
   peer.set_program(program.name);
   peer.set_child(launch::Child(full));
   return peer;
@@ -125,7 +126,7 @@ void Session::look_around(const Waiting& waiting, double seconds) {
 
 void Session::wait_joined() {
   for (const auto& peer : peers_) {
-    const Waiting waiting{.peer = *peer, .what = "it to join", .limit = options_.join_timeout};
+    const Waiting waiting{.peer = *peer, .what = "it to join", .limit = peer->patience().join};
     wait(peer->channel().answer_posted, [&](double seconds) { look_around(waiting, seconds); });
     check_alive(waiting);
     peer->watch_process();
@@ -136,7 +137,7 @@ void Session::wait_joined() {
 
 LookAround Session::looking(Peer& peer, const std::string& what) {
   return [this, &peer, what](double seconds) {
-    look_around({.peer = peer, .what = what, .limit = options_.timeout}, seconds);
+    look_around({.peer = peer, .what = what, .limit = peer.patience().answer}, seconds);
   };
 }
 
@@ -207,7 +208,7 @@ void Session::wait_answer(Peer& peer) {
   wait(channel.answer_posted, [&](double seconds) {
     look_around({.peer = peer,
                  .what = fmt::format("the answer to '{}'", name_of(action_)),
-                 .limit = options_.timeout},
+                 .limit = peer.patience().answer},
                 seconds);
   });
   if (load(channel.state) != static_cast<std::uint32_t>(ChannelState::joined)) {
@@ -234,14 +235,16 @@ bool Session::everybody_left(double seconds) {
 
 void Session::finish() {
   for (const auto& peer : peers_) post(*peer, {.action = Action::finish, .window = window_});
-  if (!everybody_left(options_.timeout)) {
+  double longest = 0;
+  for (const auto& peer : peers_) longest = std::max(longest, peer->patience().answer);
+  if (!everybody_left(longest)) {
     for (const auto& peer : peers_) {
       if (peer->process_ended()) continue;
       throw core::TransportError(
           {.peer = peer->label(),
            .waited_for = "it to leave",
            .window = window_,
-           .reason = fmt::format("did not leave within {:g} s of the command to finish", options_.timeout)});
+           .reason = fmt::format("did not leave within {:g} s of the command to finish", longest)});
     }
   }
   over_ = true;

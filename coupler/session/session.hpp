@@ -21,8 +21,8 @@ struct Interrupted {};
 enum class ArraySets { one_each, one };
 
 struct SessionOptions {
-  double timeout = 300;      ///< s that a participant may take for an answer
-  double join_timeout = 60;  ///< s from the start until a participant has joined
+  double timeout = 300;      ///< s that a participant may take for an answer, unless its peer says otherwise
+  double join_timeout = 60;  ///< s from the start until a participant has joined; likewise
   double grace = 1;          ///< s that participants get to leave before they are asked to by SIGTERM
   std::function<bool()> interrupted = [] { return false; };
 };

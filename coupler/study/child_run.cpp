@@ -22,7 +22,7 @@ ChildEnd run_child(const std::vector<std::string>& command, const std::filesyste
                    double time_limit) {
   using Reason = ChildEnd::Reason;
   const auto started = Clock::now();
-  coupler::launch::Child child(command, log);
+  coupler::launch::Child child({.name = command.front(), .command = command}, log);
   while (true) {
     const double left = time_limit - seconds_since(started);
     const auto end = child.wait_end(std::clamp(left, 0.0, pause));

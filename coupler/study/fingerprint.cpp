@@ -17,7 +17,7 @@ using nlohmann::json;
 /// Programs of other people's that the scene takes from beside talus or from PATH.
 std::vector<fs::path> solvers_of(const core::SceneFile& scene) {
   std::vector<fs::path> found;
-  for (const char* key : {"structure.solver", "particles.solver"}) {
+  for (const char* key : {"structure.solver.program", "particles.solver.program"}) {
     const fs::path written = scene.path_at(key);
     if (written.empty()) continue;
     if (const auto program = coupler::launch::named_solver(written.filename(), written))

@@ -36,7 +36,8 @@ void describe(core::Fields& fields, ImplicitContactScene& contact) {
 }
 
 void describe(core::Fields& fields, ParticlesScene& particles) {
-  fields.optional("solver", particles.solver, {.help = "program that takes this side; absent: dem_solver"});
+  fields.section("solver", particles.solver,
+                 "the program that plays the particles' part, and how it is started");
   fields.optional("gravity", particles.gravity,
                   {.unit = "m/s^2",
                    .help = "acceleration of free fall; absent: none",

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/scene/sections.hpp"
 #include "dem_solver/scene/boundary_scene.hpp"
 #include "dem_solver/scene/contact_scene.hpp"
 #include "dem_solver/scene/gate_scene.hpp"
@@ -35,7 +36,7 @@ template <class T>
 using Named = std::vector<std::pair<std::string, T>>;
 
 struct ParticlesScene {
-  std::optional<std::string> solver;
+  std::optional<core::SolverScene> solver;
   std::optional<core::Vector3> gravity;  ///< m/s^2
   Named<MaterialScene> materials;
   std::vector<ContactScene> contacts;

@@ -149,8 +149,8 @@ bool constrained_slides(const StructureScene& structure) {
 }  // namespace
 
 void describe(core::Fields& fields, StructureScene& structure) {
-  fields.optional("solver", structure.solver,
-                  {.help = "another program that plays the structure's part, e.g. my_solver.py"});
+  fields.section("solver", structure.solver,
+                 "the program that plays the structure's part, and how it is started");
   fields.section("mesh_file", structure.mesh_file,
                  "one mesh of many parts, which take its groups by `group` and share its nodes");
   fields.rule(!structure.mesh_file || !structure.mesh_file->part, "mesh_file.part",

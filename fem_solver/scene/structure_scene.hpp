@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/scene/fields.hpp"
+#include "core/scene/sections.hpp"
 #include "fem_solver/scene/conditions.hpp"
 #include "fem_solver/scene/element_scenes.hpp"
 #include "fem_solver/scene/obstacles.hpp"
@@ -103,7 +104,7 @@ inline bool is_explicit(const MethodScene& method) {
 }
 
 struct StructureScene {
-  std::optional<std::string> solver;
+  std::optional<core::SolverScene> solver;
   std::optional<DampingScene> damping;
   std::optional<core::Vector3> gravity;                      ///< m/s^2
   std::vector<std::pair<double, double>> gravity_over_time;  ///< s, factor

@@ -178,4 +178,16 @@ TEST_CASE("the effective scene as text reads back as the same scene") {
   CHECK(core::SceneFile::parse(file.text(), "copy.yaml").hash() == file.hash());
 }
 
+TEST_CASE("a solver named by a word is its section's program, to which later files and settings add") {
+  Folder folder;
+  folder.add("bases/base.yaml", "structure: {solver: mine.py}\nparticles: {solver: other}")
+      .add("scene.yaml", "extends: bases/base.yaml\nstructure: {solver: {arguments: [-v]}}");
+  auto file = core::SceneFile::load(folder / "scene.yaml");
+  CHECK(file.path_at("structure.solver.program") == folder / "bases/mine.py");
+  CHECK(file.text().find("-v") != std::string::npos);
+  CHECK(file.path_at("particles.solver.program") == folder / "bases/other");
+  file.set("structure.solver", "changed.py");
+  CHECK(file.path_at("structure.solver.program").filename() == "changed.py");
+}
+
 }  // namespace talus
