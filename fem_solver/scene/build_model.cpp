@@ -169,7 +169,9 @@ std::vector<mesh::SurfacePart> runs_of_wires(const mesh::Surface& surface) {
 }
 
 void Builder::add_mesh(const std::string& name, const PartScene& part, const mesh::Net& net) {
-  if (!has_no_element(part)) mesh::check(net.surface, part.place + ": structure.parts." + name);
+  if (!has_no_element(part))
+    mesh::check(net.surface, part.place + ": structure.parts." + name,
+                is_made_of_rings(part) ? mesh::Segments::directed : mesh::Segments::either_way);
   const Index first = model_.nodes();
   model_.reference.insert(model_.reference.end(), net.surface.positions.begin(), net.surface.positions.end());
   part_of_node_.resize(static_cast<std::size_t>(model_.nodes()), meshes_++);
