@@ -119,12 +119,12 @@ void find_flat_triangles(const Surface& surface, std::vector<std::string>& all) 
 /// A cell that is there twice counts twice, in stiffness, mass and contact.
 template <std::size_t corners>
 void find_repeated_cells(const std::vector<std::array<Index, corners>>& cells, const char* kind,
-                         const Surface& surface, std::vector<std::string>& all) {
+                         const Surface& surface, bool directed, std::vector<std::string>& all) {
   std::vector<std::pair<std::array<Index, corners>, std::size_t>> sorted;
   sorted.reserve(cells.size());
   for (std::size_t i = 0; i < cells.size(); ++i) {
     sorted.emplace_back(cells[i], i);
-    std::ranges::sort(sorted.back().first);
+    if (!directed) std::ranges::sort(sorted.back().first);
   }
   std::ranges::sort(sorted);
   Sentences found(all);
@@ -181,21 +181,21 @@ std::vector<std::string> flat_cells(const Surface& surface) {
   return all;
 }
 
-std::vector<std::string> faults(const Surface& surface) {
+std::vector<std::string> faults(const Surface& surface, Segments segments) {
   std::vector<std::string> all;
   // What follows a bad position or reference cannot be computed.
   if (find_bad_positions(surface, all) || find_bad_references(surface, all)) return all;
   find_short_segments(surface, all);
   find_flat_triangles(surface, all);
-  find_repeated_cells(surface.segments, "segment", surface, all);
-  find_repeated_cells(surface.triangles, "triangle", surface, all);
+  find_repeated_cells(surface.segments, "segment", surface, segments == Segments::directed, all);
+  find_repeated_cells(surface.triangles, "triangle", surface, false, all);
   find_turned_triangles(surface, all);
   find_dangling_nodes(surface, all);
   return all;
 }
 
-void check(const Surface& surface, const std::string& what) {
-  const auto found = faults(surface);
+void check(const Surface& surface, const std::string& what, Segments segments) {
+  const auto found = faults(surface, segments);
   if (found.empty()) return;
   std::vector<core::Complaint> complaints;
   for (const auto& sentence : found)

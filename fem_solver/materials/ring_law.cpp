@@ -55,7 +55,8 @@ RingLaw ring_law(const RingDescription& ring) {
 
 /// At least that of every branch: of bending through many corners, too.
 double RingLaw::unloading_slope(double reference) const noexcept {
-  const double stretch = (breaking_.tension - straight_.tension) / (breaking_.perimeter - straight_.perimeter),
+  const double stretch =
+                   (breaking_.tension - straight_.tension) / (breaking_.perimeter - straight_.perimeter),
                bending = straight_.tension / (straight_.perimeter - reference),
                wire = breaking_.tension / (elastic_strain * breaking_.perimeter);
   return std::max({stretch, bending, wire});

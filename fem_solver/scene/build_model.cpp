@@ -152,9 +152,10 @@ void Builder::add_group(const std::string& name, const PartScene& part, const st
 std::vector<mesh::SurfacePart> runs_of_wires(const mesh::Surface& surface) {
   std::vector<mesh::SurfacePart> runs{{.segment_end = static_cast<Index>(surface.segments.size()),
                                        .triangle_end = static_cast<Index>(surface.triangles.size())}};
-  if (surface.parts.empty()) return runs;
-  runs.front().wires = surface.parts.front().wires;
-  runs.front().wire_radius = surface.parts.front().wire_radius;
+  if (!surface.parts.empty()) {
+    runs.front().wires = surface.parts.front().wires;
+    runs.front().wire_radius = surface.parts.front().wire_radius;
+  }
   for (const auto& part : surface.parts) {
     if (part.wires == runs.back().wires) continue;
     runs.back().segment_end = part.segment_begin;
@@ -168,7 +169,9 @@ std::vector<mesh::SurfacePart> runs_of_wires(const mesh::Surface& surface) {
 }
 
 void Builder::add_mesh(const std::string& name, const PartScene& part, const mesh::Net& net) {
-  if (!has_no_element(part)) mesh::check(net.surface, part.place + ": structure.parts." + name);
+  if (!has_no_element(part))
+    mesh::check(net.surface, part.place + ": structure.parts." + name,
+                is_made_of_rings(part) ? mesh::Segments::directed : mesh::Segments::either_way);
   const Index first = model_.nodes();
   model_.reference.insert(model_.reference.end(), net.surface.positions.begin(), net.surface.positions.end());
   part_of_node_.resize(static_cast<std::size_t>(model_.nodes()), meshes_++);

@@ -22,7 +22,7 @@ const RingDescription seven{.windings = 7, .wire_diameter = 0.003, .inner_diamet
 const Sides three_rings{{0, 1}, {1, 2}, {2, 3}, {3, 0}, {2, 4}, {4, 2}, {4, 5}, {5, 2}, {2, 4}};
 std::vector<double> near_round(Dice& dice) {
   std::vector<double> nodes{0.15, 0, 0, 0, 0.15, 0, -0.15, 0, 0, 0, -0.15, 0, -0.45, 0, 0, -0.3, 0.15, 0};
-  for (double& x : nodes) x += dice.uniform(-0.01, 0.01);
+  for (double& x : nodes) x += dice.uniform(-0.004, 0.004);
   return nodes;
 }
 

@@ -298,3 +298,11 @@ TEST_CASE(
   CHECK(mesh::ring_polygons(0.3, triangle).surface.segments.size() == 4 * 6);
   CHECK_THROWS_AS(mesh::ring_polygons(2, triangle), core::ConfigError);
 }
+
+TEST_CASE("a ring of two nodes goes there and back, which in other lines is a segment that is there twice") {
+  mesh::Surface ring{.positions = {0, 0, 0, 0.3, 0, 0}, .segments = {{0, 1}, {1, 0}}};
+  CHECK(mesh::faults(ring).size() == 1);
+  CHECK(mesh::faults(ring, mesh::Segments::directed).empty());
+  ring.segments.push_back({0, 1});
+  CHECK(mesh::faults(ring, mesh::Segments::directed).size() == 1);
+}
