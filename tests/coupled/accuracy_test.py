@@ -56,7 +56,7 @@ class Tune(unittest.TestCase):
     def tuned(self, *goals: str) -> tuple[subprocess.CompletedProcess, pathlib.Path]:
         out = pathlib.Path(tempfile.mkdtemp(dir=WORK.name))
         options = [word for goal in goals for word in ("--within", goal)]
-        return subprocess.run([BUILD / "bin/talus", "tune", scene, *options, "--budget", "1", "--out", out], capture_output=True, text=True), out
+        return subprocess.run([BUILD / "bin/talus", "tune", BAR, *options, "--budget", "5", "--out", out], capture_output=True, text=True), out
 
     def test_a_tuned_bar_has_a_longer_step_and_still_the_peak_that_theory_says(self):
         done, out = self.tuned(f"1 % of peak {COLUMN}")
