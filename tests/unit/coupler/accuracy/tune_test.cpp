@@ -100,7 +100,7 @@ TEST_CASE("goals are read, and what is none is told with what is expected") {
       Catch::Contains("does not run as it is (refused)") && Catch::Contains("above the stability limit"));
 }
 
-TEST_CASE("the longest step that meets a goal is found from the order, and its result is within the goal") {
+TEST_CASE("the longest step that meets a goal is found, and an effect that matters stays") {
   // 0.3 h of 3 within 2 %, less what the truth is known to: h just below 0.2 ms, and a time of 3e-3/0.2e-3.
   const Tuned tuned(
       "  friction: 1\n  particles: {factor: 0.3, order: 1}\n  cost: {structure: 0.001, particles: 0.001}\n");
@@ -112,6 +112,13 @@ TEST_CASE("the longest step that meets a goal is found from the order, and its r
   const double known_optimum = (1 + 1.2 * 2) * 1e-3 / 2e-3;
   CHECK(best.at("seconds").get<double>() <= 1.25 * known_optimum);
   CHECK(best.at("seconds").get<double>() >= known_optimum);
+  // Explain proposes to leave friction out, but it changes the peak by a third: it stays.
+  const json effect = tuned.result().at("effects").at(0);
+  CHECK(effect.at("key") == "particles.contacts[0].friction");
+  CHECK(effect.at("dropped") == false);
+  CHECK(effect.at("note") == "without it a goal is missed");
+  CHECK(effect.at("changes")[0].get<double>() == Approx(1. / 3).epsilon(0.03));
+  CHECK_THAT(best.at("name").get<std::string>(), !Catch::Contains("without"));
 }
 
 TEST_CASE("each side gets the step that its error asks for") {
@@ -138,27 +145,21 @@ TEST_CASE("settings that meet a goal only because two errors cancel there are no
 }
 
 TEST_CASE("no limit of stability is passed") {
-  const Tuned tuned("  particles: {factor: 1e-6, order: 1}\n");
-  REQUIRE(tuned.code == core::ExitCode::success);
-  const json all = tuned.result();
-  for (const auto& trial : all.at("trials"))
-    CHECK_FALSE((trial.at("good") == true &&
-                 trial.at("name").get<std::string>().find("structure 4 ms") != std::string::npos));
-  CHECK_THAT(tuned.trial("best").at("name").get<std::string>(), Catch::Contains("structure 2"));
+  const json all = one_search().result();
+  // The structure's limit is 3 ms; the search begins with four times the step of 1 ms, which is refused or
+  // left out.
+  const auto passes = [](const json& one) {
+    return one.at("good") == true &&
+           one.at("name").get<std::string>().find("structure 4 ms") != std::string::npos;
+  };
+  CHECK(std::ranges::none_of(all.at("trials"), passes));
+  CHECK(all.at("trials").size() > 10);
 }
 
-TEST_CASE(
-    "an effect that explain proposes goes where the goals are met without it, and stays where it matters") {
+TEST_CASE("an effect that explain proposes goes where the goals are met without it") {
   const Tuned without("  friction: 1e-4\n");
   CHECK_THAT(without.overlay(), !Catch::Contains("coefficient"));
   CHECK(without.result().at("effects").at(0).at("dropped") == true);
-  const Tuned kept("  friction: 0.3\n");
-  const json effect = kept.result().at("effects").at(0);
-  CHECK(effect.at("key") == "particles.contacts[0].friction");
-  CHECK(effect.at("dropped") == false);
-  CHECK(effect.at("note") == "without it a goal is missed");
-  CHECK(effect.at("changes")[0].get<double>() == Approx(0.1).epsilon(0.01));
-  CHECK_THAT(kept.trial("best").at("name").get<std::string>(), !Catch::Contains("without"));
 }
 
 TEST_CASE("several goals are met together, the energy's too") {
