@@ -42,12 +42,12 @@ talus_pkg_config(talus-participant "take part in coupled Talus runs, in C++20")
 if(TARGET talus_python)
   set(python_folder ${TALUS_PYTHON_PACKAGES}/talus_participant)
   install(TARGETS talus_python DESTINATION ${python_folder})
-  install(DIRECTORY python/talus_participant/ DESTINATION ${python_folder} FILES_MATCHING PATTERN *.py PATTERN native EXCLUDE PATTERN __pycache__ EXCLUDE)
+  install(DIRECTORY python/participant/ DESTINATION ${python_folder} FILES_MATCHING PATTERN *.py PATTERN native EXCLUDE PATTERN __pycache__ EXCLUDE)
 endif()
 
 # Scenes and first programs beside each other as in the tree, since scenes name files by their place.
 install(DIRECTORY configs python examples DESTINATION ${data_folder}
-        PATTERN __pycache__ EXCLUDE PATTERN CMakeLists.txt EXCLUDE PATTERN talus_participant EXCLUDE)
+        PATTERN __pycache__ EXCLUDE PATTERN CMakeLists.txt EXCLUDE PATTERN participant EXCLUDE)
 install(DIRECTORY docs/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs)
 install(FILES README.md cmake/debian/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY ${CMAKE_BINARY_DIR}/man DESTINATION ${CMAKE_INSTALL_MANDIR}/.. OPTIONAL)

@@ -28,11 +28,12 @@ double half_depth(const BlockSheet& block, double edge) {
   return block.form == BlockSheet::Form::eota_221 ? 0.25 * edge : 0.5 * edge;
 }
 
-/// What fits between the posts' ends; rings are whole.
+/// What fits between the posts' ends: whole rings, or whole cells of the membrane, whose edges run along wires.
 double height_of_net(const BarrierSheet& sheet) {
   const double room = sheet.posts.length - 2 * sheet.net.gap;
   const auto rings = find_ring_net(sheet.net.kind);
-  return rings ? std::floor(room / rings->diameter + 1e-9) * rings->diameter : room;
+  const double piece = rings ? rings->diameter : sheet.net.cell_across;
+  return std::floor(room / piece + 1e-9) * piece;
 }
 
 }  // namespace

@@ -68,6 +68,10 @@ class Writer {
   }
 
   bool has_block() const { return !stage_ || stage_->has_block; }
+  /// As the sheet has it, but a whole number of them makes the row.
+  double cell_along() const {
+    return layout_.net_length / std::max(1.0, std::round(layout_.net_length / sheet_.net.cell_along));
+  }
   std::size_t posts() const { return layout_.feet.size(); }
   bool breaks() const { return sheet_.test.breaks == TestSheet::Breaks::at_breaking_load; }
   /// Of ropes side by side, as a key of their element.
@@ -126,7 +130,7 @@ class Writer {
         3,
         "sheet: {{corner: {}, size: [{} m, {} m], along: [1, 0, 0], across: {}, crossed_cell: [{} m, {} m]}}",
         point(layout_.net_corner), number(layout_.net_length), number(layout_.net_height),
-        direction(layout_.up_the_post), number(sheet_.net.cell_along), number(sheet_.net.cell_across));
+        direction(layout_.up_the_post), number(cell_along()), number(sheet_.net.cell_across));
     line(3, "membrane:");
     line(4, "thickness: {} m", number(net_->thickness));
     line(4, "density: {} kg/m^3", number(net_->density));
@@ -372,7 +376,7 @@ class Writer {
       return layout_.net_corner + Vector3(std::round(layout_.hit.x() / d) * d, 0, 0) +
              row * d * layout_.up_the_post;
     }
-    const double x = std::round(layout_.hit.x() / sheet_.net.cell_along) * sheet_.net.cell_along;
+    const double x = std::round(layout_.hit.x() / cell_along()) * cell_along();
     return layout_.net_corner + Vector3(x, 0, 0) +
            std::round(up / sheet_.net.cell_across) * sheet_.net.cell_across * layout_.up_the_post;
   }

@@ -17,13 +17,13 @@ namespace py = pybind11;
 using DoubleArray = py::array_t<double, py::array::c_style | py::array::forcecast>;
 using IndexArray = py::array_t<mesh::Index, py::array::c_style | py::array::forcecast>;
 
-/// From the attributes of talus.Surface (python/talus_participant/description.py).
+/// From the attributes of talus.Surface (python/participant/description.py).
 /// @throws UsageError where an array has another shape
 mesh::Surface surface_from(const py::object& surface);
 py::dict surface_arrays(const mesh::Surface& surface);
 py::list surface_parts(const mesh::Surface& surface);
 
-/// From the attributes of talus.Declaration (python/talus_participant/description.py).
+/// From the attributes of talus.Declaration (python/participant/description.py).
 coupler::Declaration declaration_from(const py::object& declaration);
 
 /// An array of `columns` values a row (0: one-dimensional) over memory that `owner` keeps alive. No copy.

@@ -9,11 +9,11 @@
 #include "core/scene/tree.hpp"
 #include "core/units/units.hpp"
 #include "coupler/participant.hpp"
-#include "python/talus_participant/native/conversions.hpp"
-#include "python/talus_participant/native/errors.hpp"
+#include "python/participant/native/conversions.hpp"
+#include "python/participant/native/errors.hpp"
 
 /// talus_participant._native: the participant interface of coupler/participant.hpp, call by call. The package around it
-/// (python/talus_participant/) is what users see.
+/// (python/participant/) is what users see.
 namespace talus::python {
 namespace {
 

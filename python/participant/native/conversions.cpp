@@ -1,4 +1,4 @@
-#include "python/talus_participant/native/conversions.hpp"
+#include "python/participant/native/conversions.hpp"
 
 #include <pybind11/stl.h>
 

@@ -1,4 +1,4 @@
-#include "python/talus_participant/native/errors.hpp"
+#include "python/participant/native/errors.hpp"
 
 #include <stdexcept>
 #include <string>
