@@ -8,12 +8,12 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <nanoflann.hpp>
 #include <numeric>
 #include <set>
 #include <unordered_map>
 
 #include "core/errors.hpp"
+#include "interface_mesh/point_tree.hpp"
 #include "interface_mesh/points.hpp"
 
 namespace talus::mesh {
@@ -249,21 +249,6 @@ void refuse_near_nodes(const Surface& surface, const std::string& what) {
                   what, places, worst.distance, example, rounded_up(worst.distance)));
 }
 
-struct PointCloud {
-  const Surface& surface;
-  const std::vector<Index>& nodes;
-  std::size_t kdtree_get_point_count() const { return nodes.size(); }
-  double kdtree_get_pt(std::size_t k, std::size_t direction) const {
-    return surface.positions[3 * static_cast<std::size_t>(nodes[k]) + direction];
-  }
-  template <class Box>
-  bool kdtree_get_bbox(Box&) const {
-    return false;
-  }
-};
-using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, PointCloud>, PointCloud,
-                                                 3, std::size_t>;
-
 void refuse_nodes_on_edges(const Surface& surface, const std::string& what) {
   const auto found = nodes_on_edges(surface);
   if (found.empty()) return;
@@ -284,8 +269,10 @@ std::vector<NodeOnEdge> nodes_on_edges(const Surface& surface) {
   std::ranges::sort(nodes);
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   const std::vector<double> shortest = shortest_edges(surface);
-  const PointCloud cloud{surface, nodes};
-  Tree tree(3, cloud);
+  std::vector<double> places;
+  for (const Index node : nodes) append(places, point(surface.positions, node));
+  const PointCloud cloud{places};
+  PointTree tree(3, cloud);
   tree.buildIndex();
   std::vector<NodeOnEdge> found;
   std::vector<std::pair<std::size_t, double>> near;

@@ -2,29 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <nanoflann.hpp>
-
 #include "core/units/units.hpp"
 #include "fem_solver/constraints/held_directions.hpp"
+#include "interface_mesh/point_tree.hpp"
 
 namespace talus::fem {
 namespace {
 
 constexpr double share_of_element = 0.05;
-
-struct PointCloud {
-  const std::vector<double>& positions;
-  std::size_t kdtree_get_point_count() const { return positions.size() / 3; }
-  double kdtree_get_pt(std::size_t node, std::size_t direction) const {
-    return positions[3 * node + direction];
-  }
-  template <class Box>
-  bool kdtree_get_bbox(Box&) const {
-    return false;
-  }
-};
-using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, PointCloud>, PointCloud,
-                                                 3, std::size_t>;
 
 /// What meets at a node.
 struct Meeting {
@@ -64,8 +49,8 @@ std::vector<std::string> loose_ends(const Model& model) {
         own.elements == 1 && own.other >= 0 && !held[static_cast<std::size_t>(node)])
       ends.push_back(node);
   if (ends.empty()) return {};
-  const PointCloud cloud{model.reference};
-  Tree tree(3, cloud);
+  const mesh::PointCloud cloud{model.reference};
+  mesh::PointTree tree(3, cloud);
   tree.buildIndex();
   std::vector<std::string> found;
   std::vector<std::pair<std::size_t, double>> near;

@@ -1,27 +1,13 @@
 #include "fem_solver/scene/weld.hpp"
 
 #include <algorithm>
-#include <nanoflann.hpp>
 #include <numeric>
 
 #include "fem_solver/model/joined_nodes.hpp"
+#include "interface_mesh/point_tree.hpp"
 
 namespace talus::fem {
 namespace {
-
-struct PointCloud {
-  std::span<const double> positions;
-  std::size_t kdtree_get_point_count() const { return positions.size() / 3; }
-  double kdtree_get_pt(std::size_t point, std::size_t direction) const {
-    return positions[3 * point + direction];
-  }
-  template <class Box>
-  bool kdtree_get_bbox(Box&) const {
-    return false;
-  }
-};
-using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, PointCloud>, PointCloud,
-                                                 3, std::size_t>;
 
 /// Nodes that become one, and the parts that each group is of.
 class Welds {
@@ -54,8 +40,8 @@ struct NearPair {
 
 std::vector<Index> weld_map(std::span<const double> positions, std::span<const Index> part_of,
                             double tolerance) {
-  const PointCloud cloud{positions};
-  Tree tree(3, cloud);
+  const mesh::PointCloud cloud{positions};
+  mesh::PointTree tree(3, cloud);
   tree.buildIndex();
   // nanoflann finds squared distances below the radius; a tolerance of zero still joins equal points.
   const double radius = std::max(tolerance * tolerance, 1e-300) * (1 + 1e-12);
