@@ -12,15 +12,15 @@ namespace {
 constexpr double share_of_element = 0.05;
 
 /// What meets at a node.
-struct Meeting {
+struct AtNode {
   int elements = 0;
   Index other = -1;  ///< of the last element with two nodes
 };
 
-std::vector<Meeting> meetings(const Model& model) {
-  std::vector<Meeting> at(static_cast<std::size_t>(model.nodes()));
+std::vector<AtNode> elements_at_nodes(const Model& model) {
+  std::vector<AtNode> at(static_cast<std::size_t>(model.nodes()));
   const auto meet = [&](Index node, Index other) {
-    Meeting& own = at[static_cast<std::size_t>(node)];
+    AtNode& own = at[static_cast<std::size_t>(node)];
     ++own.elements;
     own.other = other;
   };
@@ -41,11 +41,11 @@ std::vector<Meeting> meetings(const Model& model) {
 }  // namespace
 
 std::vector<std::string> loose_ends(const Model& model) {
-  const std::vector<Meeting> at = meetings(model);
+  const std::vector<AtNode> at = elements_at_nodes(model);
   const std::vector<bool> held = held_nodes(model);
   std::vector<Index> ends;
   for (Index node = 0; node < model.nodes(); ++node)
-    if (const Meeting& own = at[static_cast<std::size_t>(node)];
+    if (const AtNode& own = at[static_cast<std::size_t>(node)];
         own.elements == 1 && own.other >= 0 && !held[static_cast<std::size_t>(node)])
       ends.push_back(node);
   if (ends.empty()) return {};
@@ -55,7 +55,7 @@ std::vector<std::string> loose_ends(const Model& model) {
   std::vector<std::string> found;
   std::vector<std::pair<std::size_t, double>> near;
   for (const Index node : ends) {
-    const Meeting& own = at[static_cast<std::size_t>(node)];
+    const AtNode& own = at[static_cast<std::size_t>(node)];
     const Vector3 place = model.position(node);
     const double reach = share_of_element * (model.position(own.other) - place).norm();
     tree.radiusSearch(place.data(), reach * reach, near, nanoflann::SearchParams());  // the nearest first
