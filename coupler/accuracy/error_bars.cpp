@@ -21,6 +21,7 @@
 #include "coupler/accuracy/causes.hpp"
 #include "coupler/accuracy/scene_tree.hpp"
 #include "coupler/regress/pool.hpp"
+#include "coupler/study/child_run.hpp"
 #include "coupler/study/scene_text.hpp"
 
 namespace talus::accuracy {
@@ -58,14 +59,6 @@ struct Companion {
   std::string message = {};
   json peaks = {};
 };
-
-std::string last_line(const fs::path& file) {
-  std::ifstream lines(file);
-  std::string line, last;
-  while (std::getline(lines, line))
-    if (!line.empty()) last = line;
-  return last;
-}
 
 class ErrorBars {
  public:
@@ -180,8 +173,8 @@ class ErrorBars {
     if (one.good)
       one.peaks = read_json(run.folder / "summary.json").at("peaks");
     else
-      one.message =
-          finished.too_slow ? fmt::format("given up after {:.0f} s", run.time_limit) : last_line(run.console);
+      one.message = finished.too_slow ? fmt::format("given up after {:.0f} s", run.time_limit)
+                                      : study::last_line(run.console);
     return one;
   }
 

@@ -31,14 +31,6 @@ constexpr double rest_time = 1e-3;  // s; of stages that only come to rest
 constexpr double left_over_at_rest = 3e-4;
 constexpr int most_steps_to_rest = 1000000;
 
-std::string last_line(const fs::path& log) {
-  std::ifstream file(log);
-  std::string line, last;
-  while (std::getline(file, line))
-    if (!line.empty()) last = line;
-  return last;
-}
-
 json as_json(const Vector3& p) {
   return {p.x(), p.y(), p.z()};
 }
@@ -61,7 +53,7 @@ class Course {
       throw core::FileError(test_.folder, "created", error.value());
     if (!rest("settle", "The barrier comes to rest under its weight.", "{relaxation: {}}"))
       throw core::ConfigError(fmt::format("the barrier does not come to rest under its weight: {} ({})",
-                                          last_line(log_of("settle")), log_of("settle").string()));
+                                          study::last_line(log_of("settle")), log_of("settle").string()));
     if (test_.impacts.contains("sel")) service_impacts();
     if (test_.impacts.contains("mel")) impact("mel", "MEL", "settle", test_.loaded.sheet.block.mass);
     return report();
@@ -117,7 +109,7 @@ class Course {
                    .end = sheet.test.time});
     json data =
         ran ? measured(folder_of(name), sheet, layout) : json{{"finished", false}, {"block_mass_kg", mass}};
-    data["why_not"] = ran ? json(nullptr) : json(last_line(log_of(name)));
+    data["why_not"] = ran ? json(nullptr) : json(study::last_line(log_of(name)));
     data["name"] = name;
     data["title"] = title;
     data["folder"] = name;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <fstream>
 
 #include "core/program/stop.hpp"
 #include "coupler/launch/child.hpp"
@@ -32,6 +33,14 @@ ChildEnd run_child(const std::vector<std::string>& command, const std::filesyste
     if (core::stop_requested()) return {Reason::stop_requested, 0, seconds};
     if (left <= 0) return {Reason::time_limit, 0, seconds};
   }
+}
+
+std::string last_line(const std::filesystem::path& log) {
+  std::ifstream lines(log);
+  std::string line, last;
+  while (std::getline(lines, line))
+    if (!line.empty()) last = line;
+  return last;
 }
 
 }  // namespace talus::study

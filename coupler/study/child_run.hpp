@@ -18,4 +18,7 @@ struct ChildEnd {
 ChildEnd run_child(const std::vector<std::string>& command, const std::filesystem::path& log,
                    double time_limit);
 
+/// The last line of a program's log that is not empty: what it said at its end.
+std::string last_line(const std::filesystem::path& log);
+
 }  // namespace talus::study

@@ -18,14 +18,6 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-std::string last_line(const fs::path& file) {
-  std::ifstream lines(file);
-  std::string line, last;
-  while (std::getline(lines, line))
-    if (!line.empty()) last = line;
-  return last;
-}
-
 struct Ended {
   Ending ending = Ending::good;
   std::string message;
